@@ -1,0 +1,66 @@
+#pragma once
+
+#include <burnish/framebuffer.hpp>
+#include <burnish/scene.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace burnish {
+
+/// One instruction set that the kernels were built for.
+struct IsaInfo {
+    std::string_view name;  ///< "avx512", "avx2", "sse42", "neon64" or "reference"
+    bool available;         ///< this CPU and operating system can run it
+};
+
+/// Best first; the scalar reference is always last.
+std::vector<IsaInfo> instruction_sets();
+
+struct RendererOptions {
+    int threads = 0;       ///< workers, exactly that many; 0 = one per core; at most 1024
+    std::string isa;       ///< empty: the environment variable BURNISH_ISA, else the best available
+    std::size_t memory_cap = std::size_t{256} << 20;  ///< bytes for binned triangles, then a flush
+};
+
+/// What a frame did. Counts do not depend on ISA or thread count; times do.
+struct FrameStats {
+    std::uint64_t triangles = 0;            ///< submitted
+    std::uint64_t nonfinite_triangles = 0;  ///< dropped for a NaN or infinite clip position
+    std::uint64_t degenerate_triangles = 0;  ///< zero area after snapping
+    std::uint64_t clipped_triangles = 0;    ///< cut by the near, far or guard band planes
+    std::uint64_t binned_triangles = 0;
+    std::uint64_t flushes = 0;              ///< times the memory cap was met
+    std::uint64_t shaded_pixels = 0;
+    double geometry_ms = 0.0;  ///< vertices, setup, bins
+    double tiles_ms = 0.0;     ///< coverage, shading, resolve
+    std::vector<std::uint64_t> tiles_per_worker;
+};
+
+/// Draws scenes. Bits of the frame depend on the scene and the machine profile only: not on the
+/// instruction set, the thread count or earlier frames. One call at a time per object.
+class Renderer {
+  public:
+    /// Throws Error{bad_option} for an unknown or unavailable ISA, or a thread count out of range.
+    explicit Renderer(const RendererOptions& options = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    [[nodiscard]] std::string_view isa() const noexcept;
+    [[nodiscard]] int threads() const noexcept;
+
+    /// Renders `scene` into all of `target`, whose size (not the scene's) sets the resolution.
+    /// Throws Error{bad_program} or Error{bad_option} for a material, machine or camera that cannot
+    /// be drawn, Error{limit} if memory runs out; the contents of `target` are then unspecified.
+    FrameStats render(const Scene& scene, Framebuffer& target);
+
+  private:
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+}  // namespace burnish

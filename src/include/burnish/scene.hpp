@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <burnish/combiner.hpp>
+#include <burnish/framebuffer.hpp>
+#include <burnish/machine.hpp>
+#include <burnish/mesh.hpp>
+#include <burnish/texture.hpp>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace burnish {
+
+/// Perspective camera; right-handed, looks from `position` to `focal_point`.
+struct Camera {
+    glm::vec3 position{0.0F, 0.0F, 3.0F};
+    glm::vec3 focal_point{0.0F, 0.0F, 0.0F};
+    glm::vec3 view_up{0.0F, 1.0F, 0.0F};
+    float view_angle = 45.0F;  ///< vertical, degrees, in (0, 180)
+    float near = 0.1F;         ///< > 0
+    float far = 100.0F;        ///< > near
+    std::optional<glm::mat4> view;        ///< world -> eye, instead of the vectors above
+    std::optional<glm::mat4> projection;  ///< eye -> clip, instead of angle, near and far
+};
+
+/// A light. Directional when `position_w` is 0 (then `position` points towards the light), a point
+/// light without falloff when it is 1.
+struct Light {
+    glm::vec3 position{0.0F, 0.0F, 1.0F};
+    float position_w = 0.0F;
+    glm::vec3 color{1.0F, 1.0F, 1.0F};
+    float intensity = 1.0F;
+};
+
+enum class Model {
+    abp_modified,  ///< the talk's "modified" anisotropic Blinn-Phong: ks (1 - (h.t/ax)^2 - (h.b/ay)^2)
+};
+
+/// What an interpolator carries into a colour register of a hand-written program.
+enum class ColorInput {
+    vertex,        ///< the vertex colour of raw vertices; 0 for a mesh
+    half_tangent,  ///< half vector in the tangent frame
+    light_tangent,
+    view_tangent,
+    n_dot_l,  ///< max(0, normal . light), in every component
+};
+
+/// A pipeline given as a program instead of a reflectance model.
+struct ProgramMaterial {
+    CombinerProgram combiners;
+    std::vector<TexturePtr> units;  ///< texture unit i; null = disabled, reads (0, 0, 0, 1)
+    ColorInput col0_rgb = ColorInput::vertex;
+    ColorInput col0_a = ColorInput::vertex;
+    ColorInput col1_rgb = ColorInput::vertex;
+    ColorInput col1_a = ColorInput::vertex;
+};
+
+/// How a surface reflects. Every map is RGBA8 data, never decoded from sRGB.
+struct Material {
+    std::string name = "default";
+    Model model = Model::abp_modified;
+    glm::vec3 kd{0.0F};        ///< diffuse, [0, 1]
+    glm::vec3 ks{1.0F};        ///< specular, [0, 1]
+    float alpha_x = 0.15F;     ///< width of the lobe along the tangent, (0, 1]
+    float alpha_y = 0.50F;     ///< along the bitangent
+    TexturePtr normal_map;     ///< tangent-space normals coded n*127.5 + 128, +Y up
+    TexturePtr tangent_map;    ///< t * map_scale / alpha_x, same code; null: made from the above
+    TexturePtr bitangent_map;  ///< b * map_scale / alpha_y, same code; null: made from the above
+    float map_scale = 0.0F;    ///< m of the two maps; 0: min(alpha_x, alpha_y)
+    TexturePtr specular_map;   ///< multiplies ks
+    std::optional<ProgramMaterial> program;  ///< instead of the model
+};
+
+enum class DepthTest { never, less, equal, lequal, greater, notequal, gequal, always };
+enum class Cull { none, back, front };
+enum class Space { object, clip, window };
+enum class Topology { triangles, triangle_strip, triangle_fan, quads, quad_strip };
+
+struct RasterState {
+    DepthTest depth_test = DepthTest::less;
+    bool depth_write = true;
+    Cull cull = Cull::none;
+};
+
+/// One raw vertex. In window space `position` is x, y in pixels (y down, centres at .5), z in 0..1
+/// and clip w.
+struct RawVertex {
+    glm::vec4 position{0.0F, 0.0F, 0.0F, 1.0F};
+    glm::vec4 color0{0.0F, 0.0F, 0.0F, 1.0F};  ///< clamped to [0, 1]
+    glm::vec4 color1{0.0F, 0.0F, 0.0F, 1.0F};
+    std::array<glm::vec4, 4> uv{glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}, glm::vec4{0.0F, 0.0F, 0.0F, 1.0F},
+                                glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}, glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}};
+};
+
+/// Vertices given one by one: what a test of the machine itself needs.
+/// Quads are split along the diagonal from their first to their third vertex, as the NV2A does.
+struct RawVertices {
+    Space space = Space::object;
+    Topology topology = Topology::triangles;
+    std::vector<RawVertex> vertices;
+};
+
+/// One draw. Objects are drawn in the order of the scene.
+struct Object {
+    std::variant<Mesh, RawVertices> geometry;
+    std::shared_ptr<const Material> material;  ///< null: the default material
+    glm::mat4 world_from_object{1.0F};         ///< rotation, uniform scale, translation
+    RasterState raster;
+};
+
+/// Everything of a picture except the memory it goes to.
+struct Scene {
+    int width = 1280;
+    int height = 720;
+    PixelFormat format = PixelFormat::rgba8;
+    glm::vec4 background{0.18F, 0.18F, 0.18F, 1.0F};
+    Machine machine = machine_profile("ideal");
+    Camera camera;
+    std::vector<Light> lights;
+    glm::vec3 ambient{0.0F};
+    std::vector<Object> objects;
+};
+
+/// Rotation by `degrees` about `axis` after uniform `scale`, then translation. Bits do not depend on
+/// the C library. Throws Error{bad_option} for a zero axis or a scale that is not positive.
+glm::mat4 placement(const glm::vec3& translate, const glm::vec3& axis, float degrees, float scale);
+
+/// A camera that sees all of `bounds` from the direction (0.5, 0.35, 1), at the given aspect ratio.
+Camera framing_camera(const Bounds& bounds, float aspect);
+
+}  // namespace burnish
