@@ -1,0 +1,42 @@
+# Every package comes from the system. What each one saves us: docs/architecture.md.
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(CLI11 REQUIRED CONFIG)
+find_package(OpenMesh REQUIRED CONFIG)
+find_package(tomlplusplus REQUIRED CONFIG)
+if(BURNISH_THREADS STREQUAL "tbb")
+  find_package(TBB REQUIRED CONFIG)
+endif()
+if(BURNISH_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(BURNISH_BENCH)
+  find_package(benchmark REQUIRED CONFIG)
+endif()
+
+# Headers only: Debian's target also names a library, xtl, that no package ships.
+find_package(xsimd 8.1 REQUIRED CONFIG)
+get_target_property(xsimd_include xsimd INTERFACE_INCLUDE_DIRECTORIES)
+add_library(burnish_xsimd INTERFACE)
+target_include_directories(burnish_xsimd SYSTEM INTERFACE ${xsimd_include})
+
+# OpenImageIO's package names an Imath target and an OpenCV directory that its core headers do not
+# need and that Debian does not install with it.
+set(OPENIMAGEIO_CONFIG_DO_NOT_FIND_IMATH ON)
+find_package(OpenImageIO 2.4 REQUIRED CONFIG)
+if(NOT TARGET Imath::ImathConfig)
+  add_library(Imath::ImathConfig INTERFACE IMPORTED)
+endif()
+foreach(target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+  get_target_property(directories ${target} INTERFACE_INCLUDE_DIRECTORIES)
+  set(existing "")
+  foreach(directory IN LISTS directories)
+    if(IS_DIRECTORY "${directory}")
+      list(APPEND existing "${directory}")
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES existing)
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing}"
+                                             INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "")
+endforeach()
