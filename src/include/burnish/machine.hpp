@@ -24,6 +24,7 @@ struct Machine {
     std::string name = "ideal";
     int texture_units = 16;       ///< 1 .. 16
     int general_stages = 16;      ///< 0 .. 16
+    bool stage_constants = true;  ///< const0 and const1 may differ from stage to stage
     NumberModel numbers = NumberModel::wide;
     HalfVector half_vector = HalfVector::pixel;
     int subpixel_bits = 8;        ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel

@@ -70,7 +70,7 @@ struct Material {
     TexturePtr normal_map;     ///< tangent-space normals coded n*127.5 + 128, +Y up
     TexturePtr tangent_map;    ///< t * map_scale / alpha_x, same code; null: made from the above
     TexturePtr bitangent_map;  ///< b * map_scale / alpha_y, same code; null: made from the above
-    float map_scale = 0.0F;    ///< m of the two maps; 0: min(alpha_x, alpha_y)
+    float map_scale = 0.0F;    ///< m of the two maps, needed if they are given: 1, 1/2, 1/4 or 1/8
     TexturePtr specular_map;   ///< multiplies ks
     std::optional<ProgramMaterial> program;  ///< instead of the model
 };
