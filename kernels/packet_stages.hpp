@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/packet.hpp"
+
+/// Arguments of the stages that shade a packet. Contract header: plain data, no functions.
+/// Floats: IEEE single precision, each operation rounded, in the order written, nothing fused.
+/// min(a, b) is a < b ? a : b and max(a, b) is a > b ? a : b, so a NaN in a yields b.
+/// Numbers of the two models: docs/numbers.md.
+namespace burnish {
+
+/// Value at pixel (px, py) of the window: (origin + dx * x) + dy * y, x = float(px - reference x).
+struct AttributePlane {
+    float origin, dx, dy;
+};
+
+/// Consecutive fragments of one triangle.
+struct Run {
+    const AttributePlane* planes;  ///< 1/w, then attribute_count times attribute/w
+    int first, count;              ///< fragments of the packet
+    std::int32_t offset_x, offset_y;  ///< tile pixel (0, 0) minus the reference pixel
+};
+
+/// Perspective-correct interpolation: attribute plane k = (planes[k + 1] at the pixel) * w, with
+/// w = 1 / (planes[0] at the pixel). x of a fragment = float(tile x + offset_x).
+struct AttributesCtx {
+    const Run* runs;  ///< cover fragments 0 .. count - 1 in order
+    int run_count;
+    int attribute_count;
+};
+
+/// Light, view and half vectors in the interpolated tangent frame, per fragment.
+/// l = light - position * light_w, v = eye - position, both normalised by 1 / sqrt(dot(x, x));
+/// h = l + v, normalised likewise. dot(a, b) = (ax*bx + ay*by) + az*bz.
+/// A vector x leaves as three attribute planes dot(T, x) * 0.5 + 0.5, dot(B, x) * 0.5 + 0.5,
+/// dot(N, x) * 0.5 + 0.5; n_dot_l as one plane max(dot(N, l), 0).
+struct LightingCtx {
+    int frame;      ///< first of 12 attribute planes: T, B, N, position, three components each
+    float light[3]; ///< object space; towards the light where light_w is 0, else its position
+    float light_w;  ///< 0 or 1
+    float eye[3];   ///< object space
+    int half_vector, light_vector, view_vector;  ///< first of three planes to write, or -1
+    int n_dot_l;    ///< plane to write, or -1
+};
+
+/// One attribute plane to one register plane: code = int(min(max(x * one + 0.5, 0), one)) with
+/// one = 255 (nine_bit) or 16384 (wide); NaN gives 0.
+struct EncodeCtx {
+    int attribute;
+    int plane;
+};
+
+enum class AddressMode : std::uint8_t { repeat, clamp_to_edge };
+
+/// Texel addresses and weights from coordinates u, v (v downward: row 0 at 0).
+/// u *= 1/q first where there is a q (u = u / q).
+/// repeat: f = u - floor(u); clamp_to_edge: f = u. Then f = min(max(f, 0), 1) (NaN gives 0),
+/// x = int(f * float(256 * width)) - (linear ? 128 : 0), texel x0 = x >> 8, weight = x & 255.
+/// repeat: x0 < 0 becomes x0 + width, x0 >= width becomes x0 - width.
+/// clamp_to_edge: x0 < 0 becomes 0 with weight 0; x0 >= width becomes width - 1.
+/// Not linear: weight 0. The right neighbour is in memory beside x0 in every case. Rows likewise,
+/// where the lower neighbour is y0 + 1, for y0 = height - 1: 0 (repeat) or y0 (clamp_to_edge).
+/// top = y0 * pitch + 4 * x0, bottom = y1 * pitch + 4 * x0.
+struct AddressCtx {
+    int u, v;  ///< attribute planes
+    int q;     ///< attribute plane, or -1
+    std::int32_t width, height, pitch;  ///< texels, texels, bytes
+    AddressMode mode_s, mode_t;
+    std::uint8_t linear;
+};
+
+/// Bilinear texels at the packet's addresses: four planes r, g, b, a from `plane` on.
+/// A texel is four signed bytes, value - 128; t below is the value 0 .. 255.
+/// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
+///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
+/// wide: h = (256 - wx) * t_left + wx * t_right, v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8
+///   (0 .. 65280), x = v + (v >> 8), code = (x + 2) >> 2.
+struct FetchCtx {
+    const std::int8_t* texels;
+    int plane;
+};
+
+/// An input of a combiner portion: the register planes of its components and the mapping, by the
+/// numbers 0 .. 7 of the hardware (burnish::Mapping in the same order).
+struct Operand {
+    std::int16_t plane[3];
+    std::uint8_t mapping;
+};
+
+enum class ProductKind : std::uint8_t { none, multiply, dot };
+enum class ThirdKind : std::uint8_t { none, sum, mux };
+enum class OutputScale : std::uint8_t { one, two, four, half };
+
+/// One portion of a general combiner stage (docs/numbers.md has the arithmetic of both models).
+/// For component c in 0 .. components - 1: AB = A[c] * B[c] or the dot product over components
+/// 0, 1, 2 (then the same for every c), CD likewise, third = AB + CD or mux, from the products
+/// before scale and bias; each output = clamp((x + bias) * scale). A kernel reads all its inputs of
+/// a fragment before it writes any output, but output planes are never input planes.
+struct PortionCtx {
+    Operand a, b, c, d;
+    ProductKind ab, cd;  ///< ab is never `none`
+    ThirdKind third;
+    OutputScale scale;
+    std::uint8_t bias_minus_half;
+    std::uint8_t wide;        ///< wide model: saturate at the register's range, not at [-1, 1]
+    std::uint8_t components;  ///< 1 or 3 planes to write per output
+    std::int16_t mux_plane;   ///< spare0.alpha, for mux
+    std::int16_t ab_out[3], cd_out[3], third_out[3];  ///< planes; unused outputs name a trash plane
+};
+
+/// The final combiner: planes out[0 .. 2] = min(1, A*B + (1 - A)*C + D), out[3] = G.
+/// Mappings 0 and 1 only. An operand with plane[0] == kColorSum or kFinalProduct reads that
+/// pseudo-register instead.
+struct FinalCtx {
+    static constexpr std::int16_t kColorSum = -1;
+    static constexpr std::int16_t kFinalProduct = -2;
+    Operand a, b, c, d, e, f;
+    Operand g;                    ///< plane[0]
+    std::int16_t spare0[3];       ///< planes that the colour sum adds
+    std::int16_t secondary[3];
+    std::uint8_t clamp_color_sum;
+    std::uint8_t uses_color_sum;
+    std::uint8_t uses_final_product;
+    std::int16_t out[4];
+};
+
+enum class StoreFormat : std::uint8_t { rgba8, rgba16, rgba32f };
+
+/// Codes of four planes to the pixels of the tile, which holds 4, 8 or 16 bytes each.
+/// nine_bit v in 0 .. 255: v; v * 257; float(v) / 255.
+/// wide v in 0 .. 16384: (v * 255 + 8192) >> 14; (v * 65535 + 8192) >> 14; float(v) / 16384.
+/// Only fragments 0 .. count - 1 are written.
+struct StoreCtx {
+    std::int16_t plane[4];
+    StoreFormat format;
+    void* tile;  ///< kTilePixels pixels
+};
+
+}  // namespace burnish

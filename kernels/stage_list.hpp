@@ -1,0 +1,29 @@
+#pragma once
+
+#include "kernels/packet_stages.hpp"
+#include "kernels/tile_stages.hpp"
+
+/// Every stage with the type of its argument, once. Enumerations, tables, tests and benchmarks come
+/// from these two lists. Contract header: no functions.
+
+/// Stages before shading: void stage(const Ctx&) noexcept.
+#define BURNISH_TILE_STAGES(X)  \
+    X(transform, TransformCtx)  \
+    X(rasterize, RasterizeCtx)  \
+    X(match, MatchCtx)
+
+/// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
+#define BURNISH_PACKET_STAGES(X)      \
+    X(attributes, AttributesCtx)      \
+    X(lighting, LightingCtx)          \
+    X(encode_nine_bit, EncodeCtx)     \
+    X(encode_wide, EncodeCtx)         \
+    X(address, AddressCtx)            \
+    X(fetch_nine_bit, FetchCtx)       \
+    X(fetch_wide, FetchCtx)           \
+    X(portion_nine_bit, PortionCtx)   \
+    X(portion_wide, PortionCtx)       \
+    X(final_nine_bit, FinalCtx)       \
+    X(final_wide, FinalCtx)           \
+    X(store_nine_bit, StoreCtx)       \
+    X(store_wide, StoreCtx)

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/packet.hpp"
+
+/// Arguments of the stages before shading. Contract header: plain data, no functions.
+namespace burnish {
+
+/// A vertex on the screen, as triangle setup wants it.
+struct ScreenVertex {
+    std::int32_t x, y;      ///< window coordinates in 1/256 pixel, snapped to the machine's grid
+    float z;                ///< window depth, [0, 1] between the near and the far plane
+    std::uint32_t outcode;  ///< Outcode bits
+};
+
+/// The same vertex before the division: window coordinates times w.
+struct HomogeneousVertex {
+    float x, y;  ///< pixels * w
+    float z;     ///< depth * w
+    float w;
+};
+
+/// Bits of ScreenVertex::outcode. x and y of ScreenVertex hold only while no bit from `near` on is
+/// set; otherwise they are 0.
+struct Outcode {
+    static constexpr std::uint32_t left = 1;        ///< window x < 0
+    static constexpr std::uint32_t right = 2;       ///< window x > width
+    static constexpr std::uint32_t above = 4;       ///< window y < 0
+    static constexpr std::uint32_t below = 8;       ///< window y > height
+    static constexpr std::uint32_t near = 16;       ///< depth < 0
+    static constexpr std::uint32_t far = 32;        ///< depth > 1
+    static constexpr std::uint32_t guard = 64;      ///< x or y outside the guard band, or w <= 0
+    static constexpr std::uint32_t nonfinite = 128; ///< a NaN or an infinity
+    static constexpr std::uint32_t frustum = 63;    ///< all in one such bit: not visible
+    static constexpr std::uint32_t needs_clip = 16 | 32 | 64;
+};
+
+/// Guard band in pixels: vertices outside are clipped. Inside, |edge coefficients| stay below 2^24.
+inline constexpr float kGuardLow = -8192.0F;
+inline constexpr float kGuardHigh = 24575.0F;
+
+/// clip -> window of one frame: window x * w = clip.x * half_width + clip.w * half_width,
+/// y * w = clip.w * half_height - clip.y * half_height, z * w = clip.z * 0.5 + clip.w * 0.5.
+struct Viewport {
+    float half_width, half_height;  ///< pixels
+    float width, height;            ///< pixels
+    float subpixels;                ///< grid steps per pixel, 2^subpixel_bits: 16 .. 256
+    float snap_bias;                ///< 0.5 to snap to the nearest step, 0 to snap downwards
+};
+
+/// Object space to the screen, `count` vertices. All arithmetic in float, no operation fused, in the
+/// order written here:
+///   clip_i = ((x * m[i] + y * m[4 + i]) + z * m[8 + i]) + m[12 + i]      (column-major m)
+///   homogeneous as in Viewport (each product rounded, then the sum), its z as ScreenVertex z * w
+///   window x = homogeneous x / w, y and z likewise
+///   screen x = int(floor(window x * subpixels + snap_bias)) * (256 / subpixels), y likewise
+/// Outcode: nonfinite alone if any of the four homogeneous values is NaN or infinite. Otherwise
+/// left: hx < 0, right: hx > w * width, above: hy < 0, below: hy > w * height, near: hz < 0,
+/// far: hz > w, guard: !(w > 0) or a window x or y outside [kGuardLow, kGuardHigh].
+/// With any of near .. nonfinite set, screen x, y and z are 0.
+struct TransformCtx {
+    const float* x;  ///< object space, readable to the next multiple of 16
+    const float* y;
+    const float* z;
+    int count;
+    float m[16];     ///< clip from object, column-major
+    Viewport viewport;
+    ScreenVertex* screen;            ///< out, `count` elements
+    HomogeneousVertex* homogeneous;  ///< out, `count` elements
+};
+
+/// A triangle as one tile sees it. Inside where a*x + b*y + c >= 0 for every edge, for whole tile
+/// pixels x, y in 0 .. 63; c includes the top-left rule. Edges that do not cross the tile are left
+/// out, so |c| < 2^30 and the sum fits 32 bits.
+struct TileTriangle {
+    std::int32_t a[3], b[3], c[3];
+    std::int32_t edges;             ///< 0 .. 3
+    std::int32_t x0, y0, x1, y1;    ///< bounding box in tile pixels, inclusive, 0 .. 63
+    float z, zx, zy;                ///< depth at the reference pixel, and per pixel
+    float z_low, z_high;            ///< range of the triangle's vertices
+    std::int32_t offset_x, offset_y;  ///< tile pixel (0, 0) minus the reference pixel
+    std::uint32_t id;               ///< what the visibility buffer keeps; not kNoTriangle
+    std::uint8_t pass_less, pass_equal, pass_greater;  ///< 1: new depth <, ==, > old passes
+    std::uint8_t depth_write;       ///< 1: a passing fragment replaces the depth
+};
+
+/// Coverage and depth of `count` triangles, in order. Per covered pixel
+///   depth = clamp((z + dx * zx) + dy * zy, z_low, z_high), dx = float(x + offset_x), dy likewise
+/// in float, no operation fused; where the depth test passes, `id` and (with depth_write) `depth`
+/// are replaced. Equal depths compare equal; there are no NaNs.
+/// `block_far[k]` is an upper bound of the depths of block k, kept up to date; kernels may skip a
+/// block by it only where no fragment of it could pass.
+struct RasterizeCtx {
+    const TileTriangle* triangles;
+    int count;
+    float* depth;         ///< kTilePixels
+    std::uint32_t* id;    ///< kTilePixels
+    float* block_far;     ///< kTileBlocks
+};
+
+/// Distinct triangles of one 8x8 block, in the order of their first pixels.
+struct BlockTriangles {
+    int count;
+    std::uint32_t id[kBlockPixels];
+    std::uint64_t mask[kBlockPixels];  ///< bit i: pixel i of the block shows that triangle
+};
+
+/// Fills `out` from 64 ids of the visibility buffer; kNoTriangle is left out.
+struct MatchCtx {
+    const std::uint32_t* id;
+    BlockTriangles* out;
+};
+
+}  // namespace burnish
