@@ -1,0 +1,68 @@
+# Who may include whom (docs/architecture.md), as a test: cmake -P check_includes.cmake
+cmake_minimum_required(VERSION 3.25)
+get_filename_component(ROOT ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
+
+# rule(<files> <ALLOW|DENY> <includes> <reason>): every #include of a file whose path matches
+# <files> must (ALLOW) or must not (DENY) match <includes>. Both are regular expressions; an include
+# is seen with its quotes or brackets.
+set_property(GLOBAL PROPERTY violations "")
+file(GLOB_RECURSE sources RELATIVE ${ROOT}
+  ${ROOT}/src/*.hpp ${ROOT}/src/*.cpp ${ROOT}/kernels/*.hpp ${ROOT}/kernels/*.inl
+  ${ROOT}/kernels/*.cpp ${ROOT}/tests/*.cpp ${ROOT}/tests/*.hpp ${ROOT}/bench/*.cpp
+  ${ROOT}/bench/*.hpp)
+function(rule files mode includes reason)
+  foreach(source IN LISTS sources)
+    if(NOT source MATCHES "${files}")
+      continue()
+    endif()
+    file(STRINGS ${ROOT}/${source} lines REGEX "^[ \t]*#[ \t]*include[ \t]")
+    foreach(line IN LISTS lines)
+      string(REGEX MATCH "[<\"][^>\"]*[>\"]" include "${line}")
+      if((mode STREQUAL "ALLOW" AND NOT include MATCHES "${includes}") OR
+         (mode STREQUAL "DENY" AND include MATCHES "${includes}"))
+        set_property(GLOBAL APPEND_STRING PROPERTY violations
+                     "  ${source}: ${include}: ${reason}\n")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+set(std "<[a-z0-9_]+>")  # one word in brackets: the standard library
+set(public "<burnish/[a-z0-9_]+\\.hpp>")
+
+# Each library behind one door.
+rule("^src/(app|core|geometry|image|include|machine|mesh|models|raster|scene|shade|pipeline)"
+  DENY "<(OpenMesh|OpenImageIO|toml\\+\\+)/" "only src/io may see file formats")
+rule("^src/io/([^i]|i[^m])" DENY "<OpenImageIO/" "only src/io/image_io.cpp may")
+rule("^src/io/image_io\\.cpp" DENY "<fmt/" "OpenImageIO bundles another fmt")
+rule("^(src|tests)/" DENY "<xsimd/" "only the per-ISA build of kernels/ may")
+rule("^src/([^a]|app/.*\\.hpp)" DENY "<CLI/" "only the sources of the command may")
+rule("^src/([^c]|core/[^p])" DENY "<(tbb|oneapi)/" "threads sit behind core/parallel.hpp")
+
+# What users include builds with the standard library and GLM alone.
+rule("^src/include/" ALLOW "^(${std}|<glm/.*>|${public})$" "public: std, GLM, <burnish/...>")
+
+# Kernels: the contract is plain data; what is compiled per ISA sees no inline function of others.
+set(contract "(packet|packet_stages|tile_stages|stage_list|kernel_table)\\.hpp")
+rule("^kernels/${contract}" ALLOW "^(<cstdint>|<cstddef>|\"kernels/${contract}\")$"
+  "contract: <cstdint>, <cstddef>, contract")
+rule("^src/" DENY "\"kernels/([^pskt]|simd)" "src/ sees the contract only")
+rule("^kernels/" DENY "^(<(burnish|glm|fmt)/|\"[^k])" "kernels see neither src/ nor GLM")
+
+# One direction: app -> pipeline -> raster, shade -> geometry -> image, mesh, machine -> core.
+rule("^src/app/" ALLOW "^(${std}|<(CLI|fmt|glm)/.*>|${public}|\"app/.*\")$" "public headers only")
+rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|raster|scene|shade)[/.]"
+  "core knows no stage")
+rule("^src/(image|mesh|machine|scene|models)/" DENY "\"(app|geometry|io|pipeline|raster|shade)[/.]"
+  "data knows no stage")
+rule("^src/io/" DENY "\"(app|geometry|kernels|pipeline|raster|shade)[/.]" "files know no stage")
+rule("^src/geometry/" DENY "\"(app|io|pipeline|raster|shade)[/.]" "later stage")
+rule("^src/raster/" DENY "\"(app|io|pipeline|shade)[/.]" "only pipeline.cpp knows both")
+rule("^src/shade/" DENY "\"(app|io|pipeline|raster)[/.]" "only pipeline.cpp knows both")
+rule("^src/pipeline" DENY "\"(app|io)/" "later stage")
+rule("." DENY "\"\\.\\.?/" "paths start at src/ or at the top")
+
+get_property(violations GLOBAL PROPERTY violations)
+if(violations)
+  message(FATAL_ERROR "includes that docs/architecture.md forbids:\n${violations}")
+endif()

@@ -1,0 +1,22 @@
+# Installs the build into an empty prefix, moves the prefix, builds tests/consumer out of tree
+# against it and compares the consumer's picture with the installed command's.
+# cmake -DBUILD=<build tree> -DSOURCE=<source tree> -DCOMPILER=<c++> -DFLAGS=<c++ flags>
+#       -DGENERATOR=<generator> -DBINDIR=<bin> -P check_package.cmake
+cmake_minimum_required(VERSION 3.25)
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+set(work ${BUILD}/package)
+set(prefix ${work}/moved)
+file(REMOVE_RECURSE ${work})
+file(MAKE_DIRECTORY ${work})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
+file(RENAME ${work}/installed ${prefix})
+
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${work}/consumer -G ${GENERATOR}
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS}
+    -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${work}/consumer)
+run(${prefix}/${BINDIR}/burnish render ${SOURCE}/tests/consumer/scene.toml -o ${work}/command.png)
+run(${work}/consumer/consumer ${SOURCE}/tests/consumer/octahedron.obj ${work}/command.png)
