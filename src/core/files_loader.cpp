@@ -1,1 +1,75 @@
+#include <dlfcn.h>
 
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+#include <filesystem>
+#include <string>
+
+#include "core/file_library.hpp"
+
+namespace burnish {
+namespace {
+
+/// Path of the file library beside the library that this code is in; empty if that is unknown.
+std::string beside_this_library() {
+    static const char kHere = 0;
+    Dl_info info{};
+    if (dladdr(&kHere, &info) == 0 || info.dli_fname == nullptr) return {};
+    return (std::filesystem::path(info.dli_fname).parent_path() / BURNISH_IO_LIBRARY).string();
+}
+
+const FileLibrary& open_library() {
+    // Beside this library first, so that a build tree never picks up an installed version.
+    const std::string beside = beside_this_library();
+    void* handle = nullptr;
+    std::error_code ignored;
+    if (!beside.empty() && std::filesystem::exists(beside, ignored))
+        handle = dlopen(beside.c_str(), RTLD_NOW | RTLD_LOCAL);
+    else
+        handle = dlopen(BURNISH_IO_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr)
+        throw Error(ErrorCode::io, std::string("the file library does not load: ") + dlerror());
+    const auto entry = reinterpret_cast<FileLibraryEntry>(dlsym(handle, kFileLibrarySymbol));
+    if (entry == nullptr)
+        throw Error(ErrorCode::io, std::string("the file library has no entry: ") + dlerror());
+    return *entry();
+}
+
+/// Loaded once and never unloaded; a failed attempt is repeated at the next call.
+const FileLibrary& library() {
+    static const FileLibrary& loaded = open_library();
+    return loaded;
+}
+
+}  // namespace
+
+LoadedMesh load_mesh(const std::filesystem::path& path) {
+    return library().load_mesh(path);
+}
+
+Image8 load_image(const std::filesystem::path& path) {
+    return library().load_image(path);
+}
+
+void save_image(const Framebuffer& frame, const std::filesystem::path& path) {
+    library().save_frame(frame, path);
+}
+
+void save_image(const Image8& image, const std::filesystem::path& path) {
+    library().save_image(image, path);
+}
+
+void save_mesh(const MeshData& mesh, const std::filesystem::path& path) {
+    library().save_mesh(mesh, path);
+}
+
+LoadedScene load_scene(const std::filesystem::path& path,
+                       const std::vector<std::string>& overrides) {
+    return library().load_scene(path, overrides);
+}
+
+LoadedScene scene_for_mesh(const std::filesystem::path& path) {
+    return library().scene_for_mesh(path);
+}
+
+}  // namespace burnish

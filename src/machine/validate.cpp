@@ -1,1 +1,201 @@
+#include <fmt/format.h>
 
+#include <array>
+#include <burnish/combiner.hpp>
+#include <burnish/error.hpp>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace burnish {
+namespace {
+
+enum class Place { rgb, alpha, final_rgb, final_alpha };
+
+std::string register_name(Register reg) {
+    if (reg >= Register::tex0 && reg <= Register::tex15)
+        return fmt::format("tex{}", static_cast<int>(reg) - static_cast<int>(Register::tex0));
+    switch (reg) {
+        case Register::zero:
+            return "zero";
+        case Register::const0:
+            return "const0";
+        case Register::const1:
+            return "const1";
+        case Register::fog:
+            return "fog";
+        case Register::col0:
+            return "col0";
+        case Register::col1:
+            return "col1";
+        case Register::spare0:
+            return "spare0";
+        case Register::spare1:
+            return "spare1";
+        case Register::color_sum:
+            return "color_sum";
+        case Register::final_product:
+            return "final_product";
+        case Register::discard:
+            return "discard";
+        default:
+            return fmt::format("register {}", static_cast<int>(reg));
+    }
+}
+
+bool is_pseudo(Register reg) {
+    return reg == Register::color_sum || reg == Register::final_product;
+}
+
+bool is_texture(Register reg) {
+    return reg >= Register::tex0 && reg <= Register::tex15;
+}
+
+/// Checks the operands of one portion or of the final combiner; messages begin with `where`.
+class Checker {
+  public:
+    Checker(std::string where, const Machine& machine)
+        : m_where(std::move(where)), m_machine(machine) {}
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw Error(ErrorCode::bad_program, m_where + ": " + message);
+    }
+
+    void require_unit(Register reg, char const* verb) const {
+        const int unit = static_cast<int>(reg) - static_cast<int>(Register::tex0);
+        if (!is_texture(reg) || unit < m_machine.texture_units) return;
+        fail(fmt::format("{} {}, machine '{}' has texture units tex0 .. tex{}", verb,
+                         register_name(reg), m_machine.name, m_machine.texture_units - 1));
+    }
+
+    /// What every place that reads a register has in common: the register exists, and the component
+    /// is one that the place can select. Zero is the same in all components.
+    void require_readable(char slot, const Input& input, Place place) const {
+        if (input.reg > Register::discard) fail(fmt::format("{} reads an unknown register", slot));
+        if (input.reg == Register::discard)
+            fail(fmt::format("{} reads discard, which can only be written", slot));
+        require_unit(input.reg, "reads");
+        if (input.reg == Register::zero) return;
+        const bool scalar = place == Place::alpha || place == Place::final_alpha;
+        if (scalar && input.component == Component::rgb)
+            fail(fmt::format("{} reads the rgb of {}, expected its alpha or blue", slot,
+                             register_name(input.reg)));
+        if (!scalar && input.component == Component::blue)
+            fail(fmt::format("{} reads the blue of {}, expected its rgb or alpha", slot,
+                             register_name(input.reg)));
+    }
+
+    void general_input(char slot, const Input& input, Place place) const {
+        require_readable(slot, input, place);
+        if (is_pseudo(input.reg))
+            fail(fmt::format("{} reads {}, which only the final combiner can", slot,
+                             register_name(input.reg)));
+        if (input.reg == Register::fog && input.component == Component::alpha)
+            fail(fmt::format("{} reads the alpha of fog, which only the final combiner can", slot));
+    }
+
+    void final_input(char slot, const Input& input, Place place) const {
+        require_readable(slot, input, place);
+        if (input.mapping != Mapping::unsigned_identity &&
+            input.mapping != Mapping::unsigned_invert)
+            fail(
+                fmt::format("{} has a signed or expanding mapping, expected unsigned or "
+                            "unsigned_invert",
+                            slot));
+        if (!is_pseudo(input.reg)) return;
+        const bool a_product = slot == 'A' && input.reg == Register::final_product;
+        if (!a_product && !(slot >= 'B' && slot <= 'D'))
+            fail(fmt::format("{} reads {}, which is for {}", slot, register_name(input.reg),
+                             input.reg == Register::color_sum ? "B, C and D" : "A, B, C and D"));
+        if (input.component != Component::rgb)
+            fail(fmt::format("{} reads the alpha of {}, which has none", slot,
+                             register_name(input.reg)));
+    }
+
+    void output(const char* name, Register out) const {
+        if (out == Register::discard) return;
+        require_unit(out, "writes");
+        const bool writable = is_texture(out) || out == Register::col0 || out == Register::col1 ||
+                              out == Register::spare0 || out == Register::spare1;
+        if (!writable)
+            fail(fmt::format("{} goes to {}, which cannot be written", name, register_name(out)));
+    }
+
+  private:
+    std::string m_where;
+    const Machine& m_machine;
+};
+
+void check_portion(const Portion& portion, Place place, const Checker& check,
+                   const Machine& machine) {
+    check.general_input('A', portion.a, place);
+    check.general_input('B', portion.b, place);
+    check.general_input('C', portion.c, place);
+    check.general_input('D', portion.d, place);
+    const bool dots = portion.ab_product == Product::dot || portion.cd_product == Product::dot;
+    if (place == Place::alpha && dots)
+        check.fail("dot product, expected multiply: dots exist in rgb portions only");
+
+    check.output("AB", portion.ab_out);
+    check.output("CD", portion.cd_out);
+    check.output(portion.third == Third::sum ? "the sum" : "the mux", portion.third_out);
+    const std::array<std::pair<Register, Register>, 3> pairs{{{portion.ab_out, portion.cd_out},
+                                                              {portion.ab_out, portion.third_out},
+                                                              {portion.cd_out, portion.third_out}}};
+    for (const auto& [one, other] : pairs) {
+        if (one == other && one != Register::discard)
+            check.fail(fmt::format("{} is written twice", register_name(one)));
+    }
+
+    if (portion.bias_minus_half && (portion.scale == Scale::four || portion.scale == Scale::half))
+        check.fail(fmt::format("bias by -1/2 with scale {}, expected scale 1 or 2",
+                               portion.scale == Scale::four ? "4" : "1/2"));
+    if (portion.wide && machine.numbers != NumberModel::wide)
+        check.fail(fmt::format("wide results, machine '{}' has 9-bit registers", machine.name));
+}
+
+void check_constant(std::string_view name, const glm::vec4& value) {
+    for (int i = 0; i < 4; ++i) {
+        if (!std::isfinite(value[i]))
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("{}: a component is not a finite number", name));
+    }
+}
+
+void check_stage(std::size_t index, const GeneralStage& stage, const Machine& machine) {
+    if ((stage.const0 || stage.const1) && !machine.stage_constants)
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("stage {}: has constants of its own, machine '{}' has only global "
+                                "ones",
+                                index, machine.name));
+    if (stage.const0) check_constant(fmt::format("stage {}, const0", index), *stage.const0);
+    if (stage.const1) check_constant(fmt::format("stage {}, const1", index), *stage.const1);
+    check_portion(stage.rgb, Place::rgb, Checker(fmt::format("stage {}, rgb", index), machine),
+                  machine);
+    check_portion(stage.alpha, Place::alpha,
+                  Checker(fmt::format("stage {}, alpha", index), machine), machine);
+}
+
+}  // namespace
+
+void CombinerProgram::validate(const Machine& machine) const {
+    if (stages.size() > static_cast<std::size_t>(machine.general_stages))
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("{} general stages, machine '{}' has {}", stages.size(),
+                                machine.name, machine.general_stages));
+    for (std::size_t i = 0; i < stages.size(); ++i) check_stage(i, stages[i], machine);
+    const Checker check("final combiner", machine);
+    check.final_input('A', final_combiner.a, Place::final_rgb);
+    check.final_input('B', final_combiner.b, Place::final_rgb);
+    check.final_input('C', final_combiner.c, Place::final_rgb);
+    check.final_input('D', final_combiner.d, Place::final_rgb);
+    check.final_input('E', final_combiner.e, Place::final_rgb);
+    check.final_input('F', final_combiner.f, Place::final_rgb);
+    check.final_input('G', final_combiner.g, Place::final_alpha);
+    check_constant("const0", const0);
+    check_constant("const1", const1);
+    check_constant("fog", fog);
+}
+
+}  // namespace burnish
