@@ -1,1 +1,190 @@
+#include "core/parallel.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <burnish/error.hpp>
+#include <cfenv>
+#include <cstdint>
+#include <exception>
+#include <thread>
+#include <vector>
+
+#ifdef BURNISH_THREADS_TBB
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+#else
+#include <condition_variable>
+#include <mutex>
+#endif
+
+namespace burnish {
+
+namespace {
+
+constexpr int kMaxWorkers = 1024;
+
+/// The default floating-point environment, for the caller's thread and the workers alike: rounding
+/// to nearest, no flush to zero. Restored on exit.
+class FloatEnvironment {
+  public:
+    FloatEnvironment() {
+        std::fegetenv(&m_saved);
+        std::fesetenv(FE_DFL_ENV);
+    }
+    ~FloatEnvironment() { std::fesetenv(&m_saved); }
+    FloatEnvironment(const FloatEnvironment&) = delete;
+    FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+  private:
+    std::fenv_t m_saved;
+};
+
+int checked_size(int workers) {
+    if (workers < 0 || workers > kMaxWorkers) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("threads: {} found, expected 0 .. {}", workers, kMaxWorkers));
+    }
+    if (workers > 0) return workers;
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxWorkers);
+}
+
+}  // namespace
+
+#ifdef BURNISH_THREADS_TBB
+
+struct WorkerPool::Backend {
+    explicit Backend(int workers)
+        : limit(tbb::global_control::max_allowed_parallelism,
+                std::max<std::size_t>(static_cast<std::size_t>(workers),
+                                      tbb::global_control::active_value(
+                                          tbb::global_control::max_allowed_parallelism))),
+          arena(workers) {}
+
+    /// The caller is worker 0; the others are tasks of an arena with exactly `workers` slots.
+    void run(int workers, const std::function<void(int)>& body) {
+        arena.execute([&] {
+            tbb::task_group group;
+            for (int w = 1; w < workers; ++w) {
+                group.run([&body, w] {
+                    const FloatEnvironment environment;
+                    body(w);
+                });
+            }
+            std::exception_ptr failure;
+            try {
+                const FloatEnvironment environment;
+                body(0);
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            group.wait();
+            if (failure) std::rethrow_exception(failure);
+        });
+    }
+
+    tbb::global_control limit;  // TBB otherwise never runs more threads than there are cores
+    tbb::task_arena arena;
+};
+
+#else
+
+struct WorkerPool::Backend {
+    explicit Backend(int workers) {
+        for (int w = 1; w < workers; ++w) threads.emplace_back([this, w] { work(w); });
+    }
+    ~Backend() {
+        {
+            const std::lock_guard lock(mutex);
+            stopping = true;
+        }
+        wake.notify_all();
+        for (std::thread& thread : threads) thread.join();
+    }
+    Backend(const Backend&) = delete;
+    Backend& operator=(const Backend&) = delete;
+
+    void run(int workers, const std::function<void(int)>& body) {
+        {
+            const std::lock_guard lock(mutex);
+            current = &body;
+            busy = workers - 1;
+            failure = nullptr;
+            ++round;
+        }
+        wake.notify_all();
+        call(body, 0);
+        std::unique_lock lock(mutex);
+        done.wait(lock, [this] { return busy == 0; });
+        if (failure) std::rethrow_exception(failure);
+    }
+
+    void call(const std::function<void(int)>& body, int worker) {
+        try {
+            const FloatEnvironment environment;
+            body(worker);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            failure = std::current_exception();
+        }
+    }
+
+    void work(int worker) {
+        std::uint64_t seen = 0;
+        std::unique_lock lock(mutex);
+        for (;;) {
+            wake.wait(lock, [&] { return stopping || round != seen; });
+            if (stopping) return;
+            seen = round;
+            const std::function<void(int)>& body = *current;
+            lock.unlock();
+            call(body, worker);
+            lock.lock();
+            if (--busy == 0) done.notify_all();
+        }
+    }
+
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::condition_variable done;
+    const std::function<void(int)>* current = nullptr;
+    std::exception_ptr failure;
+    std::uint64_t round = 0;
+    int busy = 0;
+    bool stopping = false;
+    std::vector<std::thread> threads;
+};
+
+#endif
+
+WorkerPool::WorkerPool(int workers) : m_size(checked_size(workers)) {
+    m_backend = std::make_unique<Backend>(m_size);
+}
+WorkerPool::~WorkerPool() = default;
+WorkerPool::WorkerPool(WorkerPool&&) noexcept = default;
+WorkerPool& WorkerPool::operator=(WorkerPool&&) noexcept = default;
+
+void WorkerPool::run(const std::function<void(int)>& body) {
+    if (m_size == 1) {
+        const FloatEnvironment environment;
+        body(0);
+        return;
+    }
+    m_backend->run(m_size, body);
+}
+
+void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, int)>& body) {
+    alignas(64) std::atomic<std::size_t> next{0};
+    pool.run([&](int worker) {
+        for (;;) {
+            const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
+            if (begin >= count) return;
+            for (std::size_t i = begin; i < std::min(count, begin + grain); ++i) body(i, worker);
+        }
+    });
+}
+
+}  // namespace burnish

@@ -1,1 +1,64 @@
+#include <fmt/format.h>
 
+#include <burnish/error.hpp>
+#include <burnish/framebuffer.hpp>
+#include <cstdint>
+
+namespace burnish {
+
+namespace {
+
+std::ptrdiff_t channel_size(PixelFormat format) {
+    return static_cast<std::ptrdiff_t>(pixel_size(format) / 4);
+}
+
+void check_size(int width, int height) {
+    const auto fits = [](int side) { return side >= 1 && side <= Framebuffer::kMaxSize; };
+    if (!fits(width) || !fits(height)) {
+        throw Error(ErrorCode::bad_option, fmt::format("frame size {}x{}, expected 1 .. {} both ways",
+                                                       width, height, Framebuffer::kMaxSize));
+    }
+}
+
+}  // namespace
+
+std::size_t pixel_size(PixelFormat format) noexcept {
+    switch (format) {
+        case PixelFormat::rgba8: return 4;
+        case PixelFormat::rgba16: return 8;
+        case PixelFormat::rgba32f: return 16;
+    }
+    return 0;
+}
+
+Framebuffer::Framebuffer(int width, int height, PixelFormat format)
+    : m_width(width), m_height(height), m_format(format) {
+    check_size(width, height);
+    m_pitch = static_cast<std::ptrdiff_t>(pixel_size(format)) * width;
+    m_owned.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(height));
+    m_pixels = m_owned.data();
+}
+
+Framebuffer::Framebuffer(void* pixels, std::ptrdiff_t pitch, int width, int height,
+                         PixelFormat format)
+    : m_pixels(static_cast<std::byte*>(pixels)),
+      m_pitch(pitch),
+      m_width(width),
+      m_height(height),
+      m_format(format) {
+    check_size(width, height);
+    const std::ptrdiff_t packed = static_cast<std::ptrdiff_t>(pixel_size(format)) * width;
+    if (pitch < packed || pitch % channel_size(format) != 0) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("row pitch {}, expected a multiple of {} and at least {}", pitch,
+                                channel_size(format), packed));
+    }
+    if (pixels == nullptr ||
+        reinterpret_cast<std::uintptr_t>(pixels) % static_cast<std::uintptr_t>(channel_size(format)) != 0) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("pixels at {}, expected an address that is a multiple of {}", pixels,
+                                channel_size(format)));
+    }
+}
+
+}  // namespace burnish

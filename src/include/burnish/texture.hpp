@@ -49,6 +49,11 @@ class Texture {
     /// Throws Error{bad_input} if the image is empty or its byte count does not fit its size,
     /// Error{limit} if a side exceeds kMaxSize.
     Texture(const Image8& image, const Sampler& sampler);
+    Texture(Texture&&) noexcept = default;
+    Texture& operator=(Texture&&) noexcept = default;
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+    ~Texture() = default;
 
     [[nodiscard]] int width() const noexcept { return m_width; }
     [[nodiscard]] int height() const noexcept { return m_height; }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace burnish {
+
+/// A fixed number of workers. The backend is oneTBB, or plain threads (BURNISH_THREADS=std), which
+/// the thread sanitizer can see through.
+class WorkerPool {
+  public:
+    /// 0 = one per core, at most 1024. Throws Error{bad_option} outside 0 .. 1024.
+    explicit WorkerPool(int workers);
+    ~WorkerPool();
+    WorkerPool(WorkerPool&&) noexcept;
+    WorkerPool& operator=(WorkerPool&&) noexcept;
+
+    [[nodiscard]] int size() const noexcept { return m_size; }
+
+    /// Calls body(w) once for every worker number w, each on a thread of its own as far as the
+    /// machine allows, all in the default floating-point environment; returns when all are done.
+    /// An exception from a body is rethrown here (one of them, if there are several).
+    void run(const std::function<void(int)>& body);
+
+  private:
+    struct Backend;
+    std::unique_ptr<Backend> m_backend;
+    int m_size;
+};
+
+/// Hands out 0 .. count - 1 to the workers of `pool` in increasing order, a few at a time:
+/// body(index, worker).
+void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, int)>& body);
+
+}  // namespace burnish
