@@ -1,0 +1,532 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "kernels/kernel_table.hpp"
+
+/// The scalar reference of every stage: one pixel at a time, each line the definition from
+/// docs/numbers.md or from the comment of the stage's argument. It decides what the vector kernels
+/// must give, bit for bit, so nothing here is written for speed.
+namespace burnish {
+namespace {
+
+using Int = std::int64_t;
+
+// The minimum and maximum of the contract: a NaN in `a` yields `b`.
+float minimum(float a, float b) {
+    return a < b ? a : b;
+}
+float maximum(float a, float b) {
+    return a > b ? a : b;
+}
+
+Int clamp(Int x, Int low, Int high) {
+    return std::min(std::max(x, low), high);
+}
+
+/// Quotient rounded to nearest, for divisors that leave no ties. divisor > 0 and odd.
+Int divide_to_nearest(Int x, Int divisor) {
+    const Int magnitude = ((x < 0 ? -x : x) * 2 + divisor) / (2 * divisor);
+    return x < 0 ? -magnitude : magnitude;
+}
+
+/// Quotient by 2^bits, rounded half up.
+Int shift_half_up(Int x, int bits) {
+    return (x + (Int{1} << (bits - 1))) >> bits;
+}
+
+int tile_x(int pixel) {
+    return pixel / kBlockPixels % (kTileSize / kBlockSize) * kBlockSize + pixel % kBlockSize;
+}
+int tile_y(int pixel) {
+    return pixel / kBlockPixels / (kTileSize / kBlockSize) * kBlockSize +
+           pixel % kBlockPixels / kBlockSize;
+}
+
+int tile_index(int x, int y) {
+    const int block = y / kBlockSize * (kTileSize / kBlockSize) + x / kBlockSize;
+    return block * kBlockPixels + y % kBlockSize * kBlockSize + x % kBlockSize;
+}
+
+// ---- stages before shading
+
+std::uint32_t outcode(const HomogeneousVertex& v, const Viewport& viewport) {
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w))
+        return Outcode::nonfinite;
+    std::uint32_t code = 0;
+    if (v.x < 0.0F) code |= Outcode::left;
+    if (v.x > v.w * viewport.width) code |= Outcode::right;
+    if (v.y < 0.0F) code |= Outcode::above;
+    if (v.y > v.w * viewport.height) code |= Outcode::below;
+    if (v.z < 0.0F) code |= Outcode::near;
+    if (v.z > v.w) code |= Outcode::far;
+    const auto outside = [&](float window) { return window < kGuardLow || window > kGuardHigh; };
+    if (!(v.w > 0.0F) || outside(v.x / v.w) || outside(v.y / v.w)) code |= Outcode::guard;
+    return code;
+}
+
+void transform(const TransformCtx& ctx) noexcept {
+    const float* m = ctx.m;
+    const Viewport& port = ctx.viewport;
+    for (int k = 0; k < ctx.count; ++k) {
+        float clip[4];
+        for (int i = 0; i < 4; ++i)
+            clip[i] = ((ctx.x[k] * m[i] + ctx.y[k] * m[4 + i]) + ctx.z[k] * m[8 + i]) + m[12 + i];
+        HomogeneousVertex& h = ctx.homogeneous[k];
+        h.x = clip[0] * port.half_width + clip[3] * port.half_width;
+        h.y = clip[3] * port.half_height - clip[1] * port.half_height;
+        h.z = clip[2] * 0.5F + clip[3] * 0.5F;
+        h.w = clip[3];
+
+        ScreenVertex& s = ctx.screen[k];
+        s = {0, 0, 0.0F, outcode(h, port)};
+        if ((s.outcode & (Outcode::needs_clip | Outcode::nonfinite)) != 0) continue;
+        const auto snap = [&](float window) {
+            const float step = std::floor(window * port.subpixels + port.snap_bias);
+            return static_cast<std::int32_t>(step) *
+                   (256 / static_cast<std::int32_t>(port.subpixels));
+        };
+        s.x = snap(h.x / h.w);
+        s.y = snap(h.y / h.w);
+        s.z = h.z / h.w;
+    }
+}
+
+bool covers(const TileTriangle& t, int x, int y) {
+    for (int e = 0; e < t.edges; ++e)
+        if (Int{t.a[e]} * x + Int{t.b[e]} * y + t.c[e] < 0) return false;
+    return true;
+}
+
+float depth_at(const TileTriangle& t, int x, int y) {
+    const auto dx = static_cast<float>(x + t.offset_x);
+    const auto dy = static_cast<float>(y + t.offset_y);
+    return minimum(maximum((t.z + dx * t.zx) + dy * t.zy, t.z_low), t.z_high);
+}
+
+void rasterize(const RasterizeCtx& ctx) noexcept {
+    for (int k = 0; k < ctx.count; ++k) {
+        const TileTriangle& t = ctx.triangles[k];
+        for (int y = t.y0; y <= t.y1; ++y) {
+            for (int x = t.x0; x <= t.x1; ++x) {
+                if (!covers(t, x, y)) continue;
+                const int pixel = tile_index(x, y);
+                const float depth = depth_at(t, x, y);
+                const float old = ctx.depth[pixel];
+                const bool pass = depth < old   ? t.pass_less != 0
+                                  : depth > old ? t.pass_greater != 0
+                                                : t.pass_equal != 0;
+                if (!pass) continue;
+                ctx.id[pixel] = t.id;
+                if (t.depth_write != 0) ctx.depth[pixel] = depth;
+            }
+        }
+    }
+    for (int block = 0; block < kTileBlocks; ++block) {
+        const float* depth = ctx.depth + block * kBlockPixels;
+        ctx.block_far[block] = *std::max_element(depth, depth + kBlockPixels);
+    }
+}
+
+void match(const MatchCtx& ctx) noexcept {
+    BlockTriangles& out = *ctx.out;
+    out.count = 0;
+    for (int pixel = 0; pixel < kBlockPixels; ++pixel) {
+        const std::uint32_t id = ctx.id[pixel];
+        if (id == kNoTriangle) continue;
+        const std::uint32_t* end = out.id + out.count;
+        const auto slot = std::find(static_cast<const std::uint32_t*>(out.id), end, id) - out.id;
+        if (slot == out.count) {
+            out.id[slot] = id;
+            out.mask[slot] = 0;
+            ++out.count;
+        }
+        out.mask[slot] |= std::uint64_t{1} << pixel;
+    }
+}
+
+// ---- from triangles to registers
+
+float* attribute(const Packet& packet, int k) {
+    return packet.attributes + static_cast<std::ptrdiff_t>(k) * kAttributeStride;
+}
+
+std::int16_t* plane(const Packet& packet, int k) {
+    return packet.planes + static_cast<std::ptrdiff_t>(k) * kPacketSize;
+}
+
+void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
+    for (int r = 0; r < ctx.run_count; ++r) {
+        const Run& run = ctx.runs[r];
+        for (int i = run.first; i < run.first + run.count; ++i) {
+            const auto x = static_cast<float>(tile_x(packet.pixels[i]) + run.offset_x);
+            const auto y = static_cast<float>(tile_y(packet.pixels[i]) + run.offset_y);
+            const auto value = [&](const AttributePlane& p) {
+                return (p.origin + p.dx * x) + p.dy * y;
+            };
+            const float w = 1.0F / value(run.planes[0]);
+            for (int k = 0; k < ctx.attribute_count; ++k)
+                attribute(packet, k)[i] = value(run.planes[k + 1]) * w;
+        }
+    }
+}
+
+struct Vector {
+    float x, y, z;
+};
+
+float dot(const Vector& a, const Vector& b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+Vector normalised(const Vector& a) {
+    const float scale = 1.0F / std::sqrt(dot(a, a));
+    return {a.x * scale, a.y * scale, a.z * scale};
+}
+
+void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const auto read = [&](int k) -> Vector {
+            return {attribute(packet, k)[i], attribute(packet, k + 1)[i],
+                    attribute(packet, k + 2)[i]};
+        };
+        const Vector tangent = read(ctx.frame);
+        const Vector bitangent = read(ctx.frame + 3);
+        const Vector normal = read(ctx.frame + 6);
+        const Vector position = read(ctx.frame + 9);
+
+        const Vector l = normalised({ctx.light[0] - position.x * ctx.light_w,
+                                     ctx.light[1] - position.y * ctx.light_w,
+                                     ctx.light[2] - position.z * ctx.light_w});
+        const Vector v =
+            normalised({ctx.eye[0] - position.x, ctx.eye[1] - position.y, ctx.eye[2] - position.z});
+        const Vector h = normalised({l.x + v.x, l.y + v.y, l.z + v.z});
+
+        const auto write = [&](int k, const Vector& x) {
+            if (k < 0) return;
+            attribute(packet, k)[i] = dot(tangent, x) * 0.5F + 0.5F;
+            attribute(packet, k + 1)[i] = dot(bitangent, x) * 0.5F + 0.5F;
+            attribute(packet, k + 2)[i] = dot(normal, x) * 0.5F + 0.5F;
+        };
+        write(ctx.half_vector, h);
+        write(ctx.light_vector, l);
+        write(ctx.view_vector, v);
+        if (ctx.n_dot_l >= 0) attribute(packet, ctx.n_dot_l)[i] = maximum(dot(normal, l), 0.0F);
+    }
+}
+
+// ---- texels
+
+struct TexelPosition {
+    std::int32_t texel;  ///< upper or left
+    std::int32_t next;   ///< lower
+    std::int16_t weight;
+};
+
+TexelPosition texel_position(float u, std::int32_t size, AddressMode mode, bool linear) {
+    const bool repeat = mode == AddressMode::repeat;
+    const float f = minimum(maximum(repeat ? u - std::floor(u) : u, 0.0F), 1.0F);
+    const std::int32_t fixed =
+        static_cast<std::int32_t>(f * static_cast<float>(256 * size)) - (linear ? 128 : 0);
+    TexelPosition p{fixed >> 8, 0, static_cast<std::int16_t>(linear ? fixed & 255 : 0)};
+    if (repeat) {
+        if (p.texel < 0) p.texel += size;
+        if (p.texel >= size) p.texel -= size;
+        p.next = p.texel == size - 1 ? 0 : p.texel + 1;
+    } else {
+        if (p.texel < 0) {
+            p.texel = 0;
+            p.weight = 0;
+        }
+        if (p.texel >= size) p.texel = size - 1;
+        p.next = p.texel == size - 1 ? p.texel : p.texel + 1;
+    }
+    return p;
+}
+
+void address(Packet& packet, const AddressCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        float u = attribute(packet, ctx.u)[i];
+        float v = attribute(packet, ctx.v)[i];
+        if (ctx.q >= 0) {
+            u = u / attribute(packet, ctx.q)[i];
+            v = v / attribute(packet, ctx.q)[i];
+        }
+        const TexelPosition s = texel_position(u, ctx.width, ctx.mode_s, ctx.linear != 0);
+        const TexelPosition t = texel_position(v, ctx.height, ctx.mode_t, ctx.linear != 0);
+        packet.top[i] = t.texel * ctx.pitch + 4 * s.texel;
+        packet.bottom[i] = t.next * ctx.pitch + 4 * s.texel;
+        packet.weight_x[i] = s.weight;
+        packet.weight_y[i] = t.weight;
+    }
+}
+
+// ---- the two number models
+
+Int mapped(std::uint8_t mapping, Int e, Int one, Int half) {
+    const Int positive = std::max<Int>(0, e);
+    switch (mapping) {
+        case 0:
+            return positive;
+        case 1:
+            return one - std::min(positive, one);
+        case 2:
+            return 2 * (positive - half);
+        case 3:
+            return -2 * (positive - half);
+        case 4:
+            return positive - half;
+        case 5:
+            return half - positive;
+        case 6:
+            return e;
+        default:
+            return -e;
+    }
+}
+
+struct NineBit {
+    static constexpr Int kOne = 255;
+    static constexpr Int kHalf = 128;
+
+    static Int map(std::uint8_t mapping, Int e) { return mapped(mapping, e, kOne, kHalf); }
+    static Int product(Int a, Int b) { return divide_to_nearest(a * b, kOne); }
+    static Int clamp_output(Int x, bool /*wide*/) { return clamp(x, -kOne, kOne); }
+    static Int final_identity(Int e) { return std::max<Int>(0, e); }
+    static Int color_sum(Int a, Int b) { return std::max<Int>(0, a) + std::max<Int>(0, b); }
+    static Int blend(Int a, Int b, Int c) {
+        return divide_to_nearest(a * b + (kOne - a) * c, kOne);
+    }
+
+    static Int filter(Int top_left, Int top_right, Int bottom_left, Int bottom_right, Int wx,
+                      Int wy) {
+        const Int top = shift_half_up((256 - wx) * top_left + wx * top_right, 8);
+        const Int bottom = shift_half_up((256 - wx) * bottom_left + wx * bottom_right, 8);
+        return shift_half_up((256 - wy) * top + wy * bottom, 8);
+    }
+    static Int to_8_bits(Int v) { return v; }
+    static Int to_16_bits(Int v) { return 257 * v; }
+};
+
+struct Wide {
+    static constexpr Int kOne = 16384;
+    static constexpr Int kHalf = 8192;
+    static constexpr Int kLow = -32768;
+    static constexpr Int kHigh = 32767;
+
+    static Int map(std::uint8_t mapping, Int e) {
+        return clamp(mapped(mapping, e, kOne, kHalf), kLow, kHigh);
+    }
+    static Int product(Int a, Int b) { return shift_half_up(a * b, 14); }
+    static Int clamp_output(Int x, bool wide) {
+        return wide ? clamp(x, kLow, kHigh) : clamp(x, -kOne, kOne);
+    }
+    static Int final_identity(Int e) { return clamp(e, 0, kOne); }
+    static Int color_sum(Int a, Int b) {
+        return std::min(clamp(a, 0, kOne) + clamp(b, 0, kOne), kHigh);
+    }
+    static Int blend(Int a, Int b, Int c) { return shift_half_up(a * b + (kOne - a) * c, 14); }
+
+    static Int filter(Int top_left, Int top_right, Int bottom_left, Int bottom_right, Int wx,
+                      Int wy) {
+        const Int top = (256 - wx) * top_left + wx * top_right;
+        const Int bottom = (256 - wx) * bottom_left + wx * bottom_right;
+        const Int v = shift_half_up((256 - wy) * top + wy * bottom, 8);
+        return (v + (v >> 8) + 2) >> 2;
+    }
+    static Int to_8_bits(Int v) { return shift_half_up(255 * v, 14); }
+    static Int to_16_bits(Int v) { return shift_half_up(65535 * v, 14); }
+};
+
+template <class Model>
+void encode(Packet& packet, const EncodeCtx& ctx) noexcept {
+    constexpr auto one = static_cast<float>(Model::kOne);
+    for (int i = 0; i < packet.count; ++i) {
+        const float x = attribute(packet, ctx.attribute)[i] * one + 0.5F;
+        plane(packet, ctx.plane)[i] = static_cast<std::int16_t>(minimum(maximum(x, 0.0F), one));
+    }
+}
+
+template <class Model>
+void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        for (int c = 0; c < 4; ++c) {
+            const auto texel = [&](std::int32_t offset) {
+                return Int{ctx.texels[offset + c]} + 128;
+            };
+            const Int value = Model::filter(texel(packet.top[i]), texel(packet.top[i] + 4),
+                                            texel(packet.bottom[i]), texel(packet.bottom[i] + 4),
+                                            packet.weight_x[i], packet.weight_y[i]);
+            plane(packet, ctx.plane + c)[i] = static_cast<std::int16_t>(value);
+        }
+    }
+}
+
+// ---- general combiners
+
+template <class Model>
+Int input(const Packet& packet, const Operand& operand, int component, int i) {
+    return Model::map(operand.mapping, plane(packet, operand.plane[component])[i]);
+}
+
+template <class Model>
+Int product(const Packet& packet, ProductKind kind, const Operand& x, const Operand& y,
+            int component, int i) {
+    const auto term = [&](int c) {
+        return Model::product(input<Model>(packet, x, c, i), input<Model>(packet, y, c, i));
+    };
+    switch (kind) {
+        case ProductKind::multiply:
+            return term(component);
+        case ProductKind::dot:
+            return term(0) + term(1) + term(2);
+        case ProductKind::none:
+            return 0;
+    }
+    return 0;
+}
+
+template <class Model>
+std::int16_t output(const PortionCtx& ctx, Int x) {
+    if (ctx.bias_minus_half != 0) x -= Model::kHalf;
+    switch (ctx.scale) {
+        case OutputScale::one:
+            break;
+        case OutputScale::two:
+            x *= 2;
+            break;
+        case OutputScale::four:
+            x *= 4;
+            break;
+        case OutputScale::half:
+            x = shift_half_up(x, 1);
+            break;
+    }
+    return static_cast<std::int16_t>(Model::clamp_output(x, ctx.wide != 0));
+}
+
+template <class Model>
+void portion(Packet& packet, const PortionCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const bool takes_cd =
+            ctx.third == ThirdKind::mux && plane(packet, ctx.mux_plane)[i] >= Model::kHalf;
+        Int ab[3], cd[3];
+        for (int c = 0; c < ctx.components; ++c) {
+            ab[c] = product<Model>(packet, ctx.ab, ctx.a, ctx.b, c, i);
+            cd[c] = product<Model>(packet, ctx.cd, ctx.c, ctx.d, c, i);
+        }
+        for (int c = 0; c < ctx.components; ++c) {
+            plane(packet, ctx.ab_out[c])[i] = output<Model>(ctx, ab[c]);
+            if (ctx.cd != ProductKind::none)
+                plane(packet, ctx.cd_out[c])[i] = output<Model>(ctx, cd[c]);
+            if (ctx.third == ThirdKind::none) continue;
+            const Int third = ctx.third == ThirdKind::sum ? ab[c] + cd[c]
+                              : takes_cd                  ? cd[c]
+                                                          : ab[c];
+            plane(packet, ctx.third_out[c])[i] = output<Model>(ctx, third);
+        }
+    }
+}
+
+// ---- final combiner and frame
+
+template <class Model>
+Int final_mapping(std::uint8_t mapping, Int identity) {
+    return mapping == 1 ? Model::kOne - std::min(identity, Model::kOne) : identity;
+}
+
+template <class Model>
+Int final_register(const Packet& packet, const Operand& operand, int c, int i) {
+    return final_mapping<Model>(operand.mapping,
+                                Model::final_identity(plane(packet, operand.plane[c])[i]));
+}
+
+template <class Model>
+Int final_input(const Packet& packet, const FinalCtx& ctx, const Operand& operand, int c, int i) {
+    if (operand.plane[0] == FinalCtx::kColorSum) {
+        const Int sum =
+            Model::color_sum(plane(packet, ctx.spare0[c])[i], plane(packet, ctx.secondary[c])[i]);
+        return final_mapping<Model>(operand.mapping,
+                                    ctx.clamp_color_sum != 0 ? std::min(sum, Model::kOne) : sum);
+    }
+    if (operand.plane[0] == FinalCtx::kFinalProduct) {
+        const Int e = final_register<Model>(packet, ctx.e, c, i);
+        const Int f = final_register<Model>(packet, ctx.f, c, i);
+        return final_mapping<Model>(operand.mapping, Model::product(e, f));
+    }
+    return final_register<Model>(packet, operand, c, i);
+}
+
+template <class Model>
+void final_combiner(Packet& packet, const FinalCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const auto read = [&](const Operand& o) {
+                return final_input<Model>(packet, ctx, o, c, i);
+            };
+            const Int sum = Model::blend(read(ctx.a), read(ctx.b), read(ctx.c)) + read(ctx.d);
+            plane(packet, ctx.out[c])[i] = static_cast<std::int16_t>(std::min(sum, Model::kOne));
+        }
+        const Int alpha = final_register<Model>(packet, ctx.g, 0, i);
+        plane(packet, ctx.out[3])[i] = static_cast<std::int16_t>(alpha);
+    }
+}
+
+template <class Channel>
+void write_channel(const StoreCtx& ctx, int pixel, int channel, Channel value) {
+    auto* bytes = static_cast<std::byte*>(ctx.tile);
+    std::memcpy(bytes + (pixel * 4 + channel) * static_cast<int>(sizeof(Channel)), &value,
+                sizeof(Channel));
+}
+
+template <class Model>
+void store(Packet& packet, const StoreCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const int pixel = packet.pixels[i];
+        for (int c = 0; c < 4; ++c) {
+            const std::int16_t v = plane(packet, ctx.plane[c])[i];
+            switch (ctx.format) {
+                case StoreFormat::rgba8:
+                    write_channel(ctx, pixel, c, static_cast<std::uint8_t>(Model::to_8_bits(v)));
+                    break;
+                case StoreFormat::rgba16:
+                    write_channel(ctx, pixel, c, static_cast<std::uint16_t>(Model::to_16_bits(v)));
+                    break;
+                case StoreFormat::rgba32f:
+                    write_channel(ctx, pixel, c,
+                                  static_cast<float>(v) / static_cast<float>(Model::kOne));
+                    break;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+const KernelTable& table_reference() noexcept {
+    static constexpr KernelTable table{
+        .isa = "reference",
+        .lanes = 1,
+        .transform = transform,
+        .rasterize = rasterize,
+        .match = match,
+        .attributes = attributes,
+        .lighting = lighting,
+        .encode_nine_bit = encode<NineBit>,
+        .encode_wide = encode<Wide>,
+        .address = address,
+        .fetch_nine_bit = fetch<NineBit>,
+        .fetch_wide = fetch<Wide>,
+        .portion_nine_bit = portion<NineBit>,
+        .portion_wide = portion<Wide>,
+        .final_nine_bit = final_combiner<NineBit>,
+        .final_wide = final_combiner<Wide>,
+        .store_nine_bit = store<NineBit>,
+        .store_wide = store<Wide>,
+    };
+    return table;
+}
+
+}  // namespace burnish
