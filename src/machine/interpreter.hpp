@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <burnish/combiner.hpp>
+#include <burnish/machine.hpp>
+#include <cstddef>
+#include <vector>
+
+/// The combiner machine for one fragment, straight from the rules and as plain as they are: the
+/// oracle for programs that were bound to kernels, and what `burnish trace` shows.
+namespace burnish {
+
+/// Red, green, blue, alpha as register codes: value * 255 (nine_bit) or value * 2^14 (wide).
+using Codes = std::array<int, 4>;
+
+/// One value per register. `discard` takes a place but is never written.
+struct RegisterFile {
+    std::array<Codes, static_cast<std::size_t>(Register::discard) + 1> codes{};
+
+    Codes& operator[](Register r) { return codes[static_cast<std::size_t>(r)]; }
+    const Codes& operator[](Register r) const { return codes[static_cast<std::size_t>(r)]; }
+};
+
+/// Code of a constant or an interpolated colour x: floor(one * x + 1/2), clamped to 0 .. one.
+/// NaN gives 0.
+int color_code(float x, NumberModel numbers);
+
+/// What the final combiner delivers, 0 .. 255 or 0 .. 16384.
+/// @param program  valid for `machine` (CombinerProgram::validate)
+/// @param inputs   col0, col1 and tex0 .. tex15 within the register's range; an unused unit reads
+///                 (0, 0, 0, one). The other registers are set here: constants and fog from the
+///                 program, spare0.alpha from tex0.alpha, 0 elsewhere.
+/// @param trace    gets the registers before the first stage, after each stage (with the constants
+///                 of that stage) and as the final combiner saw them, that is with the global
+///                 constants, color_sum and final_product; stages + 2 in all.
+Codes run_combiners(const CombinerProgram& program, const Machine& machine,
+                    const RegisterFile& inputs, std::vector<RegisterFile>* trace = nullptr);
+
+}  // namespace burnish
