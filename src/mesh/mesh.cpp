@@ -4,21 +4,16 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <new>
 
+#include "core/aligned.hpp"
 #include "fmt/format.h"
 
 namespace burnish {
 namespace {
 
-/// Vectors of the widest instruction set read whole cache lines.
-constexpr std::size_t kLine = 64;
-constexpr std::size_t kLanes = kLine / sizeof(float);
+/// Lanes of the widest vectors, which read whole cache lines.
+constexpr std::size_t kLanes = 16;
 constexpr std::size_t kMaxCount = (std::size_t{1} << 31) - 1;
-
-struct AlignedDelete {
-    void operator()(float* p) const { ::operator delete[](p, std::align_val_t{kLine}); }
-};
 
 void check(const MeshData& data) {
     const std::size_t count = data.positions.size();
@@ -59,7 +54,7 @@ constexpr Bounds kEmptyBounds{glm::vec3(std::numeric_limits<float>::infinity()),
 }  // namespace
 
 struct Mesh::Storage {
-    std::unique_ptr<float[], AlignedDelete> planes;  ///< x, y, z, each `pitch` long
+    AlignedVector<float> planes;  ///< x, y, z, each `pitch` long
     std::size_t pitch = 0;
     std::vector<VertexFrame> frames;
     std::vector<std::uint32_t> indices;
@@ -71,13 +66,11 @@ Mesh::Mesh(const MeshData& data) {
     const std::size_t count = data.positions.size();
     auto storage = std::make_shared<Storage>();
     storage->pitch = (count / kLanes + 1) * kLanes;
-    storage->planes.reset(static_cast<float*>(
-        ::operator new[](3 * storage->pitch * sizeof(float), std::align_val_t{kLine})));
+    storage->planes.resize(3 * storage->pitch);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        float* plane = storage->planes.get() + axis * storage->pitch;
+        float* plane = storage->planes.data() + axis * storage->pitch;
         for (std::size_t i = 0; i < count; ++i)
             plane[i] = data.positions[i][static_cast<glm::length_t>(axis)];
-        std::fill(plane + count, plane + storage->pitch, 0.0F);
     }
     storage->frames.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -102,7 +95,7 @@ Bounds Mesh::bounds() const noexcept {
 
 std::array<const float*, 3> Mesh::positions() const noexcept {
     if (!m_storage) return {nullptr, nullptr, nullptr};
-    const float* x = m_storage->planes.get();
+    const float* x = m_storage->planes.data();
     return {x, x + m_storage->pitch, x + 2 * m_storage->pitch};
 }
 
