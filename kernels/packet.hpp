@@ -15,7 +15,8 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
 /// Fragments in a packet, at most. 256 keep the live planes of a program within 24 KB; smaller
 /// packets pay for store forwarding between stages (docs/architecture.md).
 inline constexpr int kPacketSize = 256;
-/// Kernels compute whole groups of this many fragments; what lies beyond `Packet::count` is garbage.
+/// Kernels compute whole groups of this many fragments; what lies beyond `Packet::count` is
+/// garbage.
 inline constexpr int kFragmentGroup = 32;
 /// Values from one attribute plane to the next. Kernels may write up to 16 values past a run.
 inline constexpr int kAttributeStride = kPacketSize + 16;
@@ -26,14 +27,14 @@ inline constexpr int kAttributeStride = kPacketSize + 16;
 /// Fragments of one material and tile, structure of arrays; one worker's scratch memory. All
 /// pointers are aligned to 64 bytes.
 struct Packet {
-    int count;                  ///< fragments in use, 1 .. kPacketSize
+    int count;                    ///< fragments in use, 1 .. kPacketSize
     const std::uint16_t* pixels;  ///< index within the tile, 0 .. kTilePixels - 1; no two alike
-    float* attributes;          ///< plane k begins at attributes + k * kAttributeStride
-    std::int16_t* planes;       ///< register plane k begins at planes + k * kPacketSize
-    std::int32_t* top;          ///< byte offset of the upper left texel, from the texture's first
-    std::int32_t* bottom;       ///< byte offset of the lower left texel
-    std::int16_t* weight_x;     ///< of the right texels, 0 .. 255: 1/256
-    std::int16_t* weight_y;     ///< of the lower texels, 0 .. 255: 1/256
+    float* attributes;            ///< plane k begins at attributes + k * kAttributeStride
+    std::int16_t* planes;         ///< register plane k begins at planes + k * kPacketSize
+    std::int32_t* top;            ///< byte offset of the upper left texel, from the texture's first
+    std::int32_t* bottom;         ///< byte offset of the lower left texel
+    std::int16_t* weight_x;       ///< of the right texels, 0 .. 255: 1/256
+    std::int16_t* weight_y;       ///< of the lower texels, 0 .. 255: 1/256
 };
 
 }  // namespace burnish

@@ -17,8 +17,8 @@ struct AttributePlane {
 
 /// Consecutive fragments of one triangle.
 struct Run {
-    const AttributePlane* planes;  ///< 1/w, then attribute_count times attribute/w
-    int first, count;              ///< fragments of the packet
+    const AttributePlane* planes;     ///< 1/w, then attribute_count times attribute/w
+    int first, count;                 ///< fragments of the packet
     std::int32_t offset_x, offset_y;  ///< tile pixel (0, 0) minus the reference pixel
 };
 
@@ -36,12 +36,12 @@ struct AttributesCtx {
 /// A vector x leaves as three attribute planes dot(T, x) * 0.5 + 0.5, dot(B, x) * 0.5 + 0.5,
 /// dot(N, x) * 0.5 + 0.5; n_dot_l as one plane max(dot(N, l), 0).
 struct LightingCtx {
-    int frame;      ///< first of 12 attribute planes: T, B, N, position, three components each
-    float light[3]; ///< object space; towards the light where light_w is 0, else its position
-    float light_w;  ///< 0 or 1
-    float eye[3];   ///< object space
+    int frame;       ///< first of 12 attribute planes: T, B, N, position, three components each
+    float light[3];  ///< object space; towards the light where light_w is 0, else its position
+    float light_w;   ///< 0 or 1
+    float eye[3];    ///< object space
     int half_vector, light_vector, view_vector;  ///< first of three planes to write, or -1
-    int n_dot_l;    ///< plane to write, or -1
+    int n_dot_l;                                 ///< plane to write, or -1
 };
 
 /// One attribute plane to one register plane: code = int(min(max(x * one + 0.5, 0), one)) with
@@ -63,8 +63,8 @@ enum class AddressMode : std::uint8_t { repeat, clamp_to_edge };
 /// where the lower neighbour is y0 + 1, for y0 = height - 1: 0 (repeat) or y0 (clamp_to_edge).
 /// top = y0 * pitch + 4 * x0, bottom = y1 * pitch + 4 * x0.
 struct AddressCtx {
-    int u, v;  ///< attribute planes
-    int q;     ///< attribute plane, or -1
+    int u, v;                           ///< attribute planes
+    int q;                              ///< attribute plane, or -1
     std::int32_t width, height, pitch;  ///< texels, texels, bytes
     AddressMode mode_s, mode_t;
     std::uint8_t linear;
@@ -74,7 +74,8 @@ struct AddressCtx {
 /// A texel is four signed bytes, value - 128; t below is the value 0 .. 255.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
 ///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
-/// wide: h = (256 - wx) * t_left + wx * t_right, v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8
+/// wide: h = (256 - wx) * t_left + wx * t_right, v = ((256 - wy) * h_top + wy * h_bottom + 128) >>
+/// 8
 ///   (0 .. 65280), x = v + (v >> 8), code = (x + 2) >> 2.
 struct FetchCtx {
     const std::int8_t* texels;
@@ -116,8 +117,8 @@ struct FinalCtx {
     static constexpr std::int16_t kColorSum = -1;
     static constexpr std::int16_t kFinalProduct = -2;
     Operand a, b, c, d, e, f;
-    Operand g;                    ///< plane[0]
-    std::int16_t spare0[3];       ///< planes that the colour sum adds
+    Operand g;               ///< plane[0]
+    std::int16_t spare0[3];  ///< planes that the colour sum adds
     std::int16_t secondary[3];
     std::uint8_t clamp_color_sum;
     std::uint8_t uses_color_sum;

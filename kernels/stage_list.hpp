@@ -7,23 +7,23 @@
 /// from these two lists. Contract header: no functions.
 
 /// Stages before shading: void stage(const Ctx&) noexcept.
-#define BURNISH_TILE_STAGES(X)  \
-    X(transform, TransformCtx)  \
-    X(rasterize, RasterizeCtx)  \
+#define BURNISH_TILE_STAGES(X) \
+    X(transform, TransformCtx) \
+    X(rasterize, RasterizeCtx) \
     X(match, MatchCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
-#define BURNISH_PACKET_STAGES(X)      \
-    X(attributes, AttributesCtx)      \
-    X(lighting, LightingCtx)          \
-    X(encode_nine_bit, EncodeCtx)     \
-    X(encode_wide, EncodeCtx)         \
-    X(address, AddressCtx)            \
-    X(fetch_nine_bit, FetchCtx)       \
-    X(fetch_wide, FetchCtx)           \
-    X(portion_nine_bit, PortionCtx)   \
-    X(portion_wide, PortionCtx)       \
-    X(final_nine_bit, FinalCtx)       \
-    X(final_wide, FinalCtx)           \
-    X(store_nine_bit, StoreCtx)       \
+#define BURNISH_PACKET_STAGES(X)    \
+    X(attributes, AttributesCtx)    \
+    X(lighting, LightingCtx)        \
+    X(encode_nine_bit, EncodeCtx)   \
+    X(encode_wide, EncodeCtx)       \
+    X(address, AddressCtx)          \
+    X(fetch_nine_bit, FetchCtx)     \
+    X(fetch_wide, FetchCtx)         \
+    X(portion_nine_bit, PortionCtx) \
+    X(portion_wide, PortionCtx)     \
+    X(final_nine_bit, FinalCtx)     \
+    X(final_wide, FinalCtx)         \
+    X(store_nine_bit, StoreCtx)     \
     X(store_wide, StoreCtx)

@@ -24,15 +24,15 @@ struct HomogeneousVertex {
 /// Bits of ScreenVertex::outcode. x and y of ScreenVertex hold only while no bit from `near` on is
 /// set; otherwise they are 0.
 struct Outcode {
-    static constexpr std::uint32_t left = 1;        ///< window x < 0
-    static constexpr std::uint32_t right = 2;       ///< window x > width
-    static constexpr std::uint32_t above = 4;       ///< window y < 0
-    static constexpr std::uint32_t below = 8;       ///< window y > height
-    static constexpr std::uint32_t near = 16;       ///< depth < 0
-    static constexpr std::uint32_t far = 32;        ///< depth > 1
-    static constexpr std::uint32_t guard = 64;      ///< x or y outside the guard band, or w <= 0
-    static constexpr std::uint32_t nonfinite = 128; ///< a NaN or an infinity
-    static constexpr std::uint32_t frustum = 63;    ///< all in one such bit: not visible
+    static constexpr std::uint32_t left = 1;         ///< window x < 0
+    static constexpr std::uint32_t right = 2;        ///< window x > width
+    static constexpr std::uint32_t above = 4;        ///< window y < 0
+    static constexpr std::uint32_t below = 8;        ///< window y > height
+    static constexpr std::uint32_t near = 16;        ///< depth < 0
+    static constexpr std::uint32_t far = 32;         ///< depth > 1
+    static constexpr std::uint32_t guard = 64;       ///< x or y outside the guard band, or w <= 0
+    static constexpr std::uint32_t nonfinite = 128;  ///< a NaN or an infinity
+    static constexpr std::uint32_t frustum = 63;     ///< all in one such bit: not visible
     static constexpr std::uint32_t needs_clip = 16 | 32 | 64;
 };
 
@@ -49,8 +49,8 @@ struct Viewport {
     float snap_bias;                ///< 0.5 to snap to the nearest step, 0 to snap downwards
 };
 
-/// Object space to the screen, `count` vertices. All arithmetic in float, no operation fused, in the
-/// order written here:
+/// Object space to the screen, `count` vertices. All arithmetic in float, no operation fused, in
+/// the order written here:
 ///   clip_i = ((x * m[i] + y * m[4 + i]) + z * m[8 + i]) + m[12 + i]      (column-major m)
 ///   homogeneous as in Viewport (each product rounded, then the sum), its z as ScreenVertex z * w
 ///   window x = homogeneous x / w, y and z likewise
@@ -64,7 +64,7 @@ struct TransformCtx {
     const float* y;
     const float* z;
     int count;
-    float m[16];     ///< clip from object, column-major
+    float m[16];  ///< clip from object, column-major
     Viewport viewport;
     ScreenVertex* screen;            ///< out, `count` elements
     HomogeneousVertex* homogeneous;  ///< out, `count` elements
@@ -75,14 +75,14 @@ struct TransformCtx {
 /// out, so |c| < 2^30 and the sum fits 32 bits.
 struct TileTriangle {
     std::int32_t a[3], b[3], c[3];
-    std::int32_t edges;             ///< 0 .. 3
-    std::int32_t x0, y0, x1, y1;    ///< bounding box in tile pixels, inclusive, 0 .. 63
-    float z, zx, zy;                ///< depth at the reference pixel, and per pixel
-    float z_low, z_high;            ///< range of the triangle's vertices
+    std::int32_t edges;               ///< 0 .. 3
+    std::int32_t x0, y0, x1, y1;      ///< bounding box in tile pixels, inclusive, 0 .. 63
+    float z, zx, zy;                  ///< depth at the reference pixel, and per pixel
+    float z_low, z_high;              ///< range of the triangle's vertices
     std::int32_t offset_x, offset_y;  ///< tile pixel (0, 0) minus the reference pixel
-    std::uint32_t id;               ///< what the visibility buffer keeps; not kNoTriangle
+    std::uint32_t id;                 ///< what the visibility buffer keeps; not kNoTriangle
     std::uint8_t pass_less, pass_equal, pass_greater;  ///< 1: new depth <, ==, > old passes
-    std::uint8_t depth_write;       ///< 1: a passing fragment replaces the depth
+    std::uint8_t depth_write;                          ///< 1: a passing fragment replaces the depth
 };
 
 /// Coverage and depth of `count` triangles, in order. Per covered pixel
@@ -94,9 +94,9 @@ struct TileTriangle {
 struct RasterizeCtx {
     const TileTriangle* triangles;
     int count;
-    float* depth;         ///< kTilePixels
-    std::uint32_t* id;    ///< kTilePixels
-    float* block_far;     ///< kTileBlocks
+    float* depth;       ///< kTilePixels
+    std::uint32_t* id;  ///< kTilePixels
+    float* block_far;   ///< kTileBlocks
 };
 
 /// Distinct triangles of one 8x8 block, in the order of their first pixels.

@@ -1,0 +1,205 @@
+/// round(a * b / 255), exactly, for |a|, |b| <= 256; tests/kernels_vs_reference.cpp tries all
+/// 513^2. With p = a b, h = (p + 128) >> 8 and l = (p + 128) & 255 the quotient is h + ((h + l) >>
+/// 8), and one less inside for negative p.
+I16 product_255(I16 a, I16 b) {
+    const I16 h = mul_round(a << 6, b << 1);
+    const I16 l = (a * b + I16(128)) & I16(255);
+    return h + ((h + (h >> 15) + l) >> 8);
+}
+
+/// The nine-bit model: one 16-bit lane holds every intermediate value (|x| <= 4 * 1542).
+struct NineBit {
+    using Value = I16;
+    static constexpr std::int16_t kOne = 255, kHalf = 128, kHighest = 255, kLowest = -255;
+
+    /// Any mapping of a register value e: max(e, low) * factor + offset.
+    struct Map {
+        explicit Map(std::uint8_t mapping) {
+            static constexpr std::int16_t kNumbers[8][3] = {
+                {0, 1, 0},           // unsigned_identity
+                {0, -1, kOne},       // unsigned_invert
+                {0, 2, -2 * kHalf},  // expand
+                {0, -2, 2 * kHalf},  // expand_negate
+                {0, 1, -kHalf},      // half_bias
+                {0, -1, kHalf},      // half_bias_negate
+                {-32768, 1, 0},      // signed_identity
+                {-32768, -1, 0},     // signed_negate
+            };
+            low = I16(kNumbers[mapping][0]);
+            factor = I16(kNumbers[mapping][1]);
+            offset = I16(kNumbers[mapping][2]);
+        }
+        I16 operator()(I16 e) const { return max(e, low) * factor + offset; }
+        I16 low, factor, offset;
+    };
+    static Value product(I16 a, I16 b) { return product_255(a, b); }
+    static Value add(Value a, Value b) { return a + b; }
+    static Value mux(I16 selector, Value ab, Value cd) {
+        return ::xsimd::select(selector > I16(kHalf - 1), cd, ab);
+    }
+    struct Output {
+        explicit Output(const PortionCtx& ctx)
+            : bias((ctx.bias_minus_half != 0 ? -kHalf : 0) +
+                   (ctx.scale == OutputScale::half ? 1 : 0)),
+              left(ctx.scale == OutputScale::two    ? 1
+                   : ctx.scale == OutputScale::four ? 2
+                                                    : 0),
+              right(ctx.scale == OutputScale::half ? 1 : 0) {}
+        I16 operator()(Value x) const {
+            return min(
+                max(((x + I16(static_cast<std::int16_t>(bias))) << left) >> right, I16(kLowest)),
+                I16(kHighest));
+        }
+        int bias, left, right;
+    };
+};
+
+/// The wide model: 16-bit operands, 32-bit products and sums, so that nothing saturates early.
+struct Wide {
+    struct Value {
+        I32 lo, hi;
+    };
+    static constexpr std::int16_t kOne = 16384, kHalf = 8192;
+
+    /// Any mapping of a register value e: clamp(e, low, high) + offset, then doubled and negated
+    /// where the masks say so. Saturating, since 2 (e - 1/2) and -e can leave the 16 bits.
+    struct Map {
+        explicit Map(std::uint8_t mapping) {
+            constexpr std::int16_t kMax = 32767, kMin = -32768;
+            static constexpr std::int16_t kNumbers[8][5] = {
+                {0, kMax, 0, 0, 0},         // unsigned_identity
+                {0, kOne, -kOne, 0, -1},    // unsigned_invert
+                {0, kMax, -kHalf, -1, 0},   // expand
+                {0, kMax, -kHalf, -1, -1},  // expand_negate
+                {0, kMax, -kHalf, 0, 0},    // half_bias
+                {0, kMax, -kHalf, 0, -1},   // half_bias_negate
+                {kMin, kMax, 0, 0, 0},      // signed_identity
+                {kMin, kMax, 0, 0, -1},     // signed_negate
+            };
+            low = I16(kNumbers[mapping][0]);
+            high = I16(kNumbers[mapping][1]);
+            offset = I16(kNumbers[mapping][2]);
+            twice = I16(kNumbers[mapping][3]);
+            negate = I16(kNumbers[mapping][4]);
+        }
+        I16 operator()(I16 e) const {
+            const I16 shifted = min(max(e, low), high) + offset;
+            const I16 doubled = ::xsimd::sadd(shifted, shifted & twice);
+            return ::xsimd::ssub(doubled ^ negate, negate);
+        }
+        I16 low, high, offset, twice, negate;
+    };
+    static Value product(I16 a, I16 b) {
+        using ::xsimd::bitwise_cast;
+        const I16 low = a * b, high = mul_high(a, b);
+        const I32 half(8192);
+        return {(bitwise_cast<I32>(zip_lo16(low, high)) + half) >> 14,
+                (bitwise_cast<I32>(zip_hi16(low, high)) + half) >> 14};
+    }
+    static Value add(Value a, Value b) { return {a.lo + b.lo, a.hi + b.hi}; }
+    static Value mux(I16 selector, Value ab, Value cd) {
+        const I32 limit(kHalf - 1);
+        return {::xsimd::select(widen_lo(selector) > limit, cd.lo, ab.lo),
+                ::xsimd::select(widen_hi(selector) > limit, cd.hi, ab.hi)};
+    }
+    struct Output {
+        explicit Output(const PortionCtx& ctx)
+            : bias((ctx.bias_minus_half != 0 ? -kHalf : 0) +
+                   (ctx.scale == OutputScale::half ? 1 : 0)),
+              left(ctx.scale == OutputScale::two    ? 1
+                   : ctx.scale == OutputScale::four ? 2
+                                                    : 0),
+              right(ctx.scale == OutputScale::half ? 1 : 0),
+              limit(ctx.wide != 0 ? 32767 : kOne) {}
+        I16 operator()(Value x) const {
+            const I32 b(bias);
+            const I16 v = narrow(((x.lo + b) << left) >> right, ((x.hi + b) << left) >> right);
+            const I16 lowest(static_cast<std::int16_t>(limit == 32767 ? -32768 : -limit));
+            return min(max(v, lowest), I16(limit));
+        }
+        int bias, left, right;
+        std::int16_t limit;
+    };
+};
+
+/// An operand's planes, copied out of the argument: vector stores might alias it otherwise.
+template <class Model>
+struct Source {
+    Source(const Packet& packet, const Operand& operand) : map(operand.mapping) {
+        for (int c = 0; c < 3; ++c) plane[c] = packet.planes + operand.plane[c] * kPacketSize;
+    }
+    I16 operator()(int component, int i) const { return map(load(plane[component] + i)); }
+    const std::int16_t* plane[3];
+    typename Model::Map map;
+};
+
+template <class Model>
+typename Model::Value dot_product(const Source<Model>& a, const Source<Model>& b, int i) {
+    const auto first =
+        Model::add(Model::product(a(0, i), b(0, i)), Model::product(a(1, i), b(1, i)));
+    return Model::add(first, Model::product(a(2, i), b(2, i)));
+}
+
+template <class Model, ProductKind Ab, ProductKind Cd, ThirdKind Third>
+void portion(Packet& packet, const PortionCtx& ctx) {
+    const Source<Model> a(packet, ctx.a), b(packet, ctx.b), c(packet, ctx.c), d(packet, ctx.d);
+    const typename Model::Output output(ctx);
+    const int components = ctx.components, n = group_count(packet);
+    const std::int16_t* const selector = packet.planes + ctx.mux_plane * kPacketSize;
+    std::int16_t *ab_out[3], *cd_out[3], *third_out[3];
+    for (int k = 0; k < 3; ++k) {
+        ab_out[k] = packet.planes + ctx.ab_out[k] * kPacketSize;
+        cd_out[k] = packet.planes + ctx.cd_out[k] * kPacketSize;
+        third_out[k] = packet.planes + ctx.third_out[k] * kPacketSize;
+    }
+    for (int i = 0; i < n; i += kLanes) {
+        typename Model::Value ab, cd;
+        if constexpr (Ab == ProductKind::dot) ab = dot_product<Model>(a, b, i);
+        if constexpr (Cd == ProductKind::dot) cd = dot_product<Model>(c, d, i);
+        for (int k = 0; k < components; ++k) {
+            if constexpr (Ab == ProductKind::multiply) ab = Model::product(a(k, i), b(k, i));
+            if constexpr (Cd == ProductKind::multiply) cd = Model::product(c(k, i), d(k, i));
+            store(ab_out[k] + i, output(ab));
+            if constexpr (Cd != ProductKind::none) store(cd_out[k] + i, output(cd));
+            if constexpr (Third == ThirdKind::sum)
+                store(third_out[k] + i, output(Model::add(ab, cd)));
+            if constexpr (Third == ThirdKind::mux) {
+                store(third_out[k] + i, output(Model::mux(load(selector + i), ab, cd)));
+            }
+        }
+    }
+}
+
+template <class Model, ProductKind Ab, ProductKind Cd>
+void portion(Packet& packet, const PortionCtx& ctx) {
+    if constexpr (Cd != ProductKind::none) {
+        if (ctx.third == ThirdKind::sum) return portion<Model, Ab, Cd, ThirdKind::sum>(packet, ctx);
+        if (ctx.third == ThirdKind::mux) return portion<Model, Ab, Cd, ThirdKind::mux>(packet, ctx);
+    }
+    portion<Model, Ab, Cd, ThirdKind::none>(packet, ctx);
+}
+
+template <class Model, ProductKind Ab>
+void portion(Packet& packet, const PortionCtx& ctx) {
+    switch (ctx.cd) {
+        case ProductKind::none:
+            return portion<Model, Ab, ProductKind::none>(packet, ctx);
+        case ProductKind::multiply:
+            return portion<Model, Ab, ProductKind::multiply>(packet, ctx);
+        case ProductKind::dot:
+            return portion<Model, Ab, ProductKind::dot>(packet, ctx);
+    }
+}
+
+template <class Model>
+void portion(Packet& packet, const PortionCtx& ctx) {
+    if (ctx.ab == ProductKind::dot) return portion<Model, ProductKind::dot>(packet, ctx);
+    portion<Model, ProductKind::multiply>(packet, ctx);
+}
+
+void portion_nine_bit(Packet& packet, const PortionCtx& ctx) noexcept {
+    portion<NineBit>(packet, ctx);
+}
+void portion_wide(Packet& packet, const PortionCtx& ctx) noexcept {
+    portion<Wide>(packet, ctx);
+}

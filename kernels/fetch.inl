@@ -1,0 +1,164 @@
+/// One texture coordinate to texels and weights, both ways of an axis alike.
+struct AxisAddress {
+    I32 texel;   ///< 0 .. size - 1
+    I32 next;    ///< its neighbour, 0 .. size - 1
+    I32 weight;  ///< of the neighbour, 0 .. 255
+};
+
+template <AddressMode Mode, bool Linear>
+AxisAddress axis_address(F32 coordinate, std::int32_t size) {
+    const I32 last(size - 1), zero(0);
+    F32 f = coordinate;
+    if constexpr (Mode == AddressMode::repeat) f = coordinate - ::xsimd::floor(coordinate);
+    f = min(max(f, F32(0.0F)), F32(1.0F));
+    const I32 fixed = truncate(f * F32(static_cast<float>(256 * size))) - I32(Linear ? 128 : 0);
+    AxisAddress a{fixed >> 8, zero, Linear ? (fixed & I32(255)) : zero};
+    if constexpr (Mode == AddressMode::repeat) {
+        a.texel = a.texel + ((a.texel >> 31) & I32(size));
+        a.texel = ::xsimd::select(a.texel > last, a.texel - I32(size), a.texel);
+        a.next = ::xsimd::select(a.texel == last, zero, a.texel + I32(1));
+    } else {
+        a.weight = ::xsimd::select(a.texel < zero, zero, a.weight);
+        a.texel = min(max(a.texel, zero), last);
+        a.next = min(a.texel + I32(1), last);
+    }
+    return a;
+}
+
+template <AddressMode ModeS, AddressMode ModeT, bool Linear>
+void addresses(Packet& packet, const AddressCtx& ctx) {
+    const float* u = packet.attributes + ctx.u * kAttributeStride;
+    const float* v = packet.attributes + ctx.v * kAttributeStride;
+    const float* q = packet.attributes + (ctx.q < 0 ? 0 : ctx.q) * kAttributeStride;
+    const bool projective = ctx.q >= 0;
+    const std::int32_t width = ctx.width, height = ctx.height;
+    const I32 pitch(ctx.pitch);
+    std::int32_t *top = packet.top, *bottom = packet.bottom;
+    std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
+    const int n = group_count(packet);
+    for (int i = 0; i < n; i += kLanes32) {
+        F32 s = load(u + i), t = load(v + i);
+        if (projective) {
+            const F32 divisor = load(q + i);
+            s = s / divisor;
+            t = t / divisor;
+        }
+        const AxisAddress x = axis_address<ModeS, Linear>(s, width);
+        const AxisAddress y = axis_address<ModeT, Linear>(t, height);
+        const I32 column = x.texel << 2;
+        store(top + i, y.texel * pitch + column);
+        store(bottom + i, y.next * pitch + column);
+        store_narrowed(weight_x + i, x.weight);
+        store_narrowed(weight_y + i, y.weight);
+    }
+}
+
+template <AddressMode ModeS, AddressMode ModeT>
+void addresses(Packet& packet, const AddressCtx& ctx) {
+    if (ctx.linear != 0) {
+        addresses<ModeS, ModeT, true>(packet, ctx);
+    } else {
+        addresses<ModeS, ModeT, false>(packet, ctx);
+    }
+}
+
+void address(Packet& packet, const AddressCtx& ctx) noexcept {
+    constexpr AddressMode kRepeat = AddressMode::repeat, kClamp = AddressMode::clamp_to_edge;
+    if (ctx.mode_s == kRepeat) {
+        if (ctx.mode_t == kRepeat) return addresses<kRepeat, kRepeat>(packet, ctx);
+        return addresses<kRepeat, kClamp>(packet, ctx);
+    }
+    if (ctx.mode_t == kRepeat) return addresses<kClamp, kRepeat>(packet, ctx);
+    return addresses<kClamp, kClamp>(packet, ctx);
+}
+
+/// Byte patterns for the 128-bit lanes of the fetch. A lane holds two fragments' texel pairs,
+/// LLLL RRRR LLLL RRRR by channel; interleaved it is L R L R (red of both), then green, blue,
+/// alpha, so that products of bytes end as words r0 r1 g0 g1 b0 b1 a0 a1.
+struct FetchPatterns {
+    I16 interleave;
+    I16 word_pair[4];  ///< words 2 k, 2 k + 1 of a lane, four times
+
+    FetchPatterns() {
+        alignas(16) std::int8_t bytes[16];
+        for (int channel = 0; channel < 4; ++channel) {
+            for (int fragment = 0; fragment < 2; ++fragment) {
+                for (int side = 0; side < 2; ++side) {
+                    bytes[4 * channel + 2 * fragment + side] =
+                        static_cast<std::int8_t>(8 * fragment + 4 * side + channel);
+                }
+            }
+        }
+        interleave = broadcast_lane(bytes);
+        for (int k = 0; k < 4; ++k) {
+            for (int i = 0; i < 16; ++i) bytes[i] = static_cast<std::int8_t>(4 * k + i % 4);
+            word_pair[k] = broadcast_lane(bytes);
+        }
+    }
+};
+
+/// (256 - wx) * left + wx * right of two rows of texels that are stored as value - 128: exact, from
+/// -32768 to 32512. 256 does not fit a byte, so one more left is added by a second product.
+I16 lerp_row(I16 texels, I16 weight_bytes) {
+    return mul_add_bytes(weight_bytes, texels) + mul_add_bytes(I16(1), texels);
+}
+
+/// Vertical lerp and number format of the nine-bit model.
+struct FetchNineBit {
+    static I16 combine(I16 top, I16 bottom, I16 weight_y) {
+        // 0x8080: back from value - 128 in 1/256, plus one half.
+        const I16 bias(static_cast<std::int16_t>(0x8080));
+        const I16 t = shift_right_logical(top + bias, 8), b = shift_right_logical(bottom + bias, 8);
+        return shift_right_logical(t * (I16(256) - weight_y) + b * weight_y + I16(128), 8);
+    }
+};
+
+struct FetchWide {
+    static I16 combine(I16 top, I16 bottom, I16 weight_y) {
+        const I16 rest = I16(256) - weight_y;
+        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), zip_lo16(rest, weight_y));
+        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), zip_hi16(rest, weight_y));
+        const I16 v = narrow((lo + I32(128)) >> 8, (hi + I32(128)) >> 8) ^
+                      I16(static_cast<std::int16_t>(0x8000));
+        const I16 x = v + shift_right_logical(v, 8);
+        return shift_right_logical(shift_right_logical(x, 1) + I16(1), 1);
+    }
+};
+
+/// 64-bit loads of texel pairs, weighted where they are, transposed to planes. Vector k of four
+/// holds fragments 8 p + 2 k and 8 p + 2 k + 1 in lane p; what comes out is in order.
+template <class Model>
+void fetch(Packet& packet, const FetchCtx& ctx) {
+    const FetchPatterns patterns;
+    const std::int8_t* const texels = ctx.texels;
+    const std::int32_t *top = packet.top, *bottom = packet.bottom;
+    const std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
+    std::int16_t* const out = packet.planes + ctx.plane * kPacketSize;
+    const int n = group_count(packet);
+    for (int i = 0; i < n; i += kLanes) {
+        const I16 wx = load(weight_x + i), wy = load(weight_y + i);
+        const I16 weight_bytes = (I16(255) - wx) | (wx << 8);
+        I16 v[4];
+        for (int k = 0; k < 4; ++k) {
+            const I16 bytes = shuffle_bytes(weight_bytes, patterns.word_pair[k]);
+            const I16 upper =
+                shuffle_bytes(load_pairs(texels, top + i + 2 * k), patterns.interleave);
+            const I16 lower =
+                shuffle_bytes(load_pairs(texels, bottom + i + 2 * k), patterns.interleave);
+            v[k] = Model::combine(lerp_row(upper, bytes), lerp_row(lower, bytes),
+                                  shuffle_bytes(wy, patterns.word_pair[k]));
+        }
+        const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);
+        const I16 ba01 = zip_hi32(v[0], v[1]), ba23 = zip_hi32(v[2], v[3]);
+        store(out + i, zip_lo64(rg01, rg23));
+        store(out + kPacketSize + i, zip_hi64(rg01, rg23));
+        store(out + 2 * kPacketSize + i, zip_lo64(ba01, ba23));
+        store(out + 3 * kPacketSize + i, zip_hi64(ba01, ba23));
+    }
+}
+void fetch_nine_bit(Packet& packet, const FetchCtx& ctx) noexcept {
+    fetch<FetchNineBit>(packet, ctx);
+}
+void fetch_wide(Packet& packet, const FetchCtx& ctx) noexcept {
+    fetch<FetchWide>(packet, ctx);
+}

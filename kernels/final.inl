@@ -1,0 +1,163 @@
+/// Arithmetic of the final combiner, nine-bit model.
+struct FinalNineBit {
+    static constexpr std::int16_t kOne = 255;
+    static I16 identity(I16 e) { return max(e, I16(0)); }
+    static I16 color_sum(I16 a, I16 b) { return identity(a) + identity(b); }
+    static I16 product(I16 a, I16 b) { return product_255(a, b); }
+
+    /// round((a b + (255 - a) c) / 255) + d = c + round(a (b - c) / 255) + d, since c is an
+    /// integer.
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) { return c + product_255(a, b - c) + d; }
+
+    /// The same where the colour sum makes |b - c| as large as 510: in 32 bits, with a division
+    /// that is exact to 2^-24, and no quotient comes nearer than 1/255 to an integer unless it is
+    /// one.
+    static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) {
+        constexpr int kLift = 512;  // keeps what is truncated positive
+        const I16 difference = b - c;
+        const I16 low = a * difference, high = mul_high(a, difference);
+        const auto quotient = [](I16 pair) {
+            const I32 p = ::xsimd::bitwise_cast<I32>(pair) + I32(127 + 255 * kLift);
+            return truncate(to_float(p) / F32(255.0F)) - I32(kLift);
+        };
+        return c + narrow(quotient(zip_lo16(low, high)), quotient(zip_hi16(low, high))) + d;
+    }
+};
+
+struct FinalWide {
+    static constexpr std::int16_t kOne = 16384;
+    static I16 identity(I16 e) { return min(max(e, I16(0)), I16(kOne)); }
+    static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(identity(a), identity(b)); }
+    static I16 product(I16 a, I16 b) {
+        const Wide::Value v = Wide::product(a, b);
+        return narrow(v.lo, v.hi);
+    }
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
+        const I16 rest = I16(kOne) - a;
+        const I32 half(8192);
+        const I32 lo = mul_add_pairs(zip_lo16(a, rest), zip_lo16(b, c)) + half;
+        const I32 hi = mul_add_pairs(zip_hi16(a, rest), zip_hi16(b, c)) + half;
+        return ::xsimd::sadd(narrow(lo >> 14, hi >> 14), d);
+    }
+    static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) { return lerp(a, b, c, d); }
+};
+
+template <class Model>
+struct FinalSource {
+    FinalSource(const Packet& packet, const Operand& operand)
+        : is_sum(operand.plane[0] == FinalCtx::kColorSum),
+          is_product(operand.plane[0] == FinalCtx::kFinalProduct),
+          invert(operand.mapping == 1) {
+        for (int c = 0; c < 3; ++c) {
+            plane[c] = packet.planes + (is_sum || is_product ? 0 : operand.plane[c]) * kPacketSize;
+        }
+    }
+    I16 operator()(int component, int i, I16 sum, I16 product) const {
+        I16 e = sum;  // the colour sum is already mapped, and may exceed 1
+        if (!is_sum) e = Model::identity(is_product ? product : load(plane[component] + i));
+        return invert ? I16(Model::kOne) - min(e, I16(Model::kOne)) : e;
+    }
+    const std::int16_t* plane[3];
+    bool is_sum, is_product, invert;
+};
+
+template <class Model>
+void final_combiner(Packet& packet, const FinalCtx& ctx) {
+    using Source = FinalSource<Model>;
+    const Source a(packet, ctx.a), b(packet, ctx.b), c(packet, ctx.c), d(packet, ctx.d);
+    const Source e(packet, ctx.e), f(packet, ctx.f), g(packet, ctx.g);
+    const bool uses_sum = ctx.uses_color_sum != 0, uses_product = ctx.uses_final_product != 0;
+    const bool clamps_sum = ctx.clamp_color_sum != 0;
+    const std::int16_t *spare0[3], *secondary[3];
+    std::int16_t* out[4];
+    for (int k = 0; k < 3; ++k) {
+        spare0[k] = packet.planes + (uses_sum ? ctx.spare0[k] : 0) * kPacketSize;
+        secondary[k] = packet.planes + (uses_sum ? ctx.secondary[k] : 0) * kPacketSize;
+    }
+    for (int k = 0; k < 4; ++k) out[k] = packet.planes + ctx.out[k] * kPacketSize;
+    const I16 one(Model::kOne), zero(0);
+    const int n = group_count(packet);
+    for (int i = 0; i < n; i += kLanes) {
+        for (int k = 0; k < 3; ++k) {
+            I16 sum = zero, product = zero;
+            if (uses_sum) {
+                sum = Model::color_sum(load(spare0[k] + i), load(secondary[k] + i));
+                if (clamps_sum) sum = min(sum, one);
+            }
+            if (uses_product) product = Model::product(e(k, i, zero, zero), f(k, i, zero, zero));
+            const I16 va = a(k, i, sum, product), vb = b(k, i, sum, product);
+            const I16 vc = c(k, i, sum, product), vd = d(k, i, sum, product);
+            const I16 rgb =
+                uses_sum ? Model::lerp_with_sum(va, vb, vc, vd) : Model::lerp(va, vb, vc, vd);
+            store(out[k] + i, min(rgb, one));
+        }
+        store(out[3] + i, g(0, i, zero, zero));
+    }
+}
+void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
+    final_combiner<FinalNineBit>(packet, ctx);
+}
+void final_wide(Packet& packet, const FinalCtx& ctx) noexcept {
+    final_combiner<FinalWide>(packet, ctx);
+}
+
+/// Codes to the channels of a frame.
+struct StoreNineBit {
+    static I16 to_u8(I16 v) { return v; }
+    static std::uint16_t to_u16(std::int16_t v) { return static_cast<std::uint16_t>(v * 257); }
+    static float to_float(std::int16_t v) { return static_cast<float>(v) / 255.0F; }
+};
+struct StoreWide {
+    static I16 to_u8(I16 v) { return mul_round(v, I16(510)); }  // (255 v + 2^13) >> 14
+    static std::uint16_t to_u16(std::int16_t v) {
+        return static_cast<std::uint16_t>((v * 65535 + 8192) >> 14);
+    }
+    static float to_float(std::int16_t v) { return static_cast<float>(v) / 16384.0F; }
+};
+
+template <class Model>
+void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
+    const std::int16_t* plane[4];
+    for (int k = 0; k < 4; ++k) plane[k] = packet.planes + ctx.plane[k] * kPacketSize;
+    auto* const tile = static_cast<std::uint32_t*>(ctx.tile);
+    const std::uint16_t* const pixels = packet.pixels;
+    const int count = packet.count;
+    for (int i = 0; i < count; i += kLanes) {
+        const I16 rg = Model::to_u8(load(plane[0] + i)) | (Model::to_u8(load(plane[1] + i)) << 8);
+        const I16 ba = Model::to_u8(load(plane[2] + i)) | (Model::to_u8(load(plane[3] + i)) << 8);
+        // Zipping keeps to the lanes: fragments 8 p .. 8 p + 3 are in the low half, the next four
+        // in the high one.
+        alignas(64) std::int16_t half[2][kLanes];
+        store(half[0], zip_lo16(rg, ba));
+        store(half[1], zip_hi16(rg, ba));
+        const int used = count - i < kLanes ? count - i : kLanes;
+        for (int k = 0; k < used; ++k) {
+            std::uint32_t pixel;
+            __builtin_memcpy(&pixel, &half[(k >> 2) & 1][2 * ((k >> 3) * 4 + (k & 3))], 4);
+            tile[pixels[i + k]] = pixel;
+        }
+    }
+}
+
+template <class Model>
+void store_pixels(Packet& packet, const StoreCtx& ctx) {
+    if (ctx.format == StoreFormat::rgba8) return store_rgba8<Model>(packet, ctx);
+    for (int k = 0; k < 4; ++k) {
+        const std::int16_t* const plane = packet.planes + ctx.plane[k] * kPacketSize;
+        for (int i = 0; i < packet.count; ++i) {
+            const std::size_t at =
+                4 * static_cast<std::size_t>(packet.pixels[i]) + static_cast<std::size_t>(k);
+            if (ctx.format == StoreFormat::rgba16) {
+                static_cast<std::uint16_t*>(ctx.tile)[at] = Model::to_u16(plane[i]);
+            } else {
+                static_cast<float*>(ctx.tile)[at] = Model::to_float(plane[i]);
+            }
+        }
+    }
+}
+void store_nine_bit(Packet& packet, const StoreCtx& ctx) noexcept {
+    store_pixels<StoreNineBit>(packet, ctx);
+}
+void store_wide(Packet& packet, const StoreCtx& ctx) noexcept {
+    store_pixels<StoreWide>(packet, ctx);
+}

@@ -1,0 +1,81 @@
+/// Perspective-correct attributes, run by run. A run's last vector may write past its end; the next
+/// run then overwrites that.
+void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
+    const int attribute_count = ctx.attribute_count;
+    for (int r = 0; r < ctx.run_count; ++r) {
+        const Run run = ctx.runs[r];
+        const I32 offset_x(run.offset_x), offset_y(run.offset_y), seven(7), high(56);
+        for (int i = run.first; i < run.first + run.count; i += kLanes32) {
+            const I32 index = load_widened(packet.pixels + i);
+            const F32 x = to_float(((index & seven) | ((index >> 3) & high)) + offset_x);
+            const F32 y = to_float((((index >> 3) & seven) | ((index >> 6) & high)) + offset_y);
+            const auto at_pixel = [&](const AttributePlane& plane) {
+                return (F32(plane.origin) + F32(plane.dx) * x) + F32(plane.dy) * y;
+            };
+            const F32 w = F32(1.0F) / at_pixel(run.planes[0]);
+            float* out = packet.attributes + i;
+            for (int k = 0; k < attribute_count; ++k) {
+                store(out + k * kAttributeStride, at_pixel(run.planes[k + 1]) * w);
+            }
+        }
+    }
+}
+
+struct Vector3 {
+    F32 x, y, z;
+};
+F32 dot(const Vector3& a, const Vector3& b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+Vector3 normalised(const Vector3& a) {
+    const F32 scale = F32(1.0F) / ::xsimd::sqrt(dot(a, a));
+    return {a.x * scale, a.y * scale, a.z * scale};
+}
+
+void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
+    const Vector3 light{F32(ctx.light[0]), F32(ctx.light[1]), F32(ctx.light[2])};
+    const Vector3 eye{F32(ctx.eye[0]), F32(ctx.eye[1]), F32(ctx.eye[2])};
+    const F32 light_w(ctx.light_w), half(0.5F), zero(0.0F);
+    float* const planes = packet.attributes;
+    const int first = ctx.frame, n = group_count(packet);
+    for (int i = 0; i < n; i += kLanes32) {
+        const auto vector = [&](int k) {
+            const float* p = planes + (first + 3 * k) * kAttributeStride + i;
+            return Vector3{load(p), load(p + kAttributeStride), load(p + 2 * kAttributeStride)};
+        };
+        const Vector3 t = vector(0), b = vector(1), normal = vector(2), position = vector(3);
+        const Vector3 l =
+            normalised({light.x - position.x * light_w, light.y - position.y * light_w,
+                        light.z - position.z * light_w});
+        const Vector3 v = normalised({eye.x - position.x, eye.y - position.y, eye.z - position.z});
+        const auto write = [&](int plane, const Vector3& x) {
+            if (plane < 0) return;
+            float* p = planes + plane * kAttributeStride + i;
+            store(p, dot(t, x) * half + half);
+            store(p + kAttributeStride, dot(b, x) * half + half);
+            store(p + 2 * kAttributeStride, dot(normal, x) * half + half);
+        };
+        write(ctx.half_vector, normalised({l.x + v.x, l.y + v.y, l.z + v.z}));
+        write(ctx.light_vector, l);
+        write(ctx.view_vector, v);
+        if (ctx.n_dot_l >= 0) {
+            store(planes + ctx.n_dot_l * kAttributeStride + i, max(dot(normal, l), zero));
+        }
+    }
+}
+
+void encode(Packet& packet, const EncodeCtx& ctx, float one_value) {
+    const F32 one(one_value), half(0.5F), zero(0.0F);
+    const float* from = packet.attributes + ctx.attribute * kAttributeStride;
+    std::int16_t* to = packet.planes + ctx.plane * kPacketSize;
+    const int n = group_count(packet);
+    for (int i = 0; i < n; i += kLanes32) {
+        store_narrowed(to + i, truncate(min(max(load(from + i) * one + half, zero), one)));
+    }
+}
+void encode_nine_bit(Packet& packet, const EncodeCtx& ctx) noexcept {
+    encode(packet, ctx, 255.0F);
+}
+void encode_wide(Packet& packet, const EncodeCtx& ctx) noexcept {
+    encode(packet, ctx, 16384.0F);
+}

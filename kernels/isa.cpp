@@ -1,0 +1,34 @@
+/// Every kernel for one instruction set. Compiled once per ISA with that ISA's flags and
+///   BURNISH_ISA    name of the namespace and of the table, e.g. avx2
+///   BURNISH_ARCH   xsimd's architecture, e.g. avx2
+///   BURNISH_TABLE  the one function that leaves this file, e.g. table_avx2
+#include "kernels/kernel_table.hpp"
+#include "kernels/simd.hpp"
+
+namespace burnish::BURNISH_ISA {
+namespace {
+
+#include "kernels/groups.inl"
+
+#include "kernels/combine.inl"
+#include "kernels/fetch.inl"
+#include "kernels/final.inl"  // after combine.inl, whose products it uses
+#include "kernels/interpolate.inl"
+#include "kernels/rasterize.inl"
+#include "kernels/transform.inl"
+
+#define BURNISH_STRINGIFY_(x) #x
+#define BURNISH_STRINGIFY(x) BURNISH_STRINGIFY_(x)
+
+constinit const KernelTable kTable{BURNISH_STRINGIFY(BURNISH_ISA), kLanes,
+#define X(name, Ctx) name,
+                                   BURNISH_TILE_STAGES(X) BURNISH_PACKET_STAGES(X)
+#undef X
+};
+
+}  // namespace
+}  // namespace burnish::BURNISH_ISA
+
+const burnish::KernelTable& burnish::BURNISH_TABLE() noexcept {
+    return burnish::BURNISH_ISA::kTable;
+}

@@ -1,0 +1,379 @@
+#pragma once
+
+#ifndef BURNISH_ISA
+#error "only for the per-ISA build of kernels/isa.cpp"
+#endif
+
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+/// Vectors of one ISA: arithmetic comes from xsimd, and what xsimd 8.1 lacks is here. Everything
+/// has internal linkage in that ISA's own namespace.
+///
+/// "Lane" below is one of the 128-bit parts of a vector: zip_*, widen_*, narrow and shuffle_bytes
+/// work inside each lane, so widen and narrow undo each other whatever the width.
+namespace burnish::BURNISH_ISA {
+namespace {
+
+using Arch = ::xsimd::BURNISH_ARCH;
+using I16 = ::xsimd::batch<std::int16_t, Arch>;
+using U16 = ::xsimd::batch<std::uint16_t, Arch>;
+using I32 = ::xsimd::batch<std::int32_t, Arch>;
+using F32 = ::xsimd::batch<float, Arch>;
+using Mask32 = ::xsimd::batch_bool<std::int32_t, Arch>;
+using MaskF = ::xsimd::batch_bool<float, Arch>;
+
+inline constexpr int kLanes = static_cast<int>(I16::size);    // 16-bit
+inline constexpr int kLanes32 = static_cast<int>(I32::size);  // 32-bit
+inline constexpr int kParts = kLanes / 8;                     // 128-bit lanes
+
+inline I16 load(const std::int16_t* p) {
+    return I16::load_unaligned(p);
+}
+inline I32 load(const std::int32_t* p) {
+    return I32::load_unaligned(p);
+}
+inline F32 load(const float* p) {
+    return F32::load_unaligned(p);
+}
+inline void store(std::int16_t* p, I16 v) {
+    v.store_unaligned(p);
+}
+inline void store(std::int32_t* p, I32 v) {
+    v.store_unaligned(p);
+}
+inline void store(float* p, F32 v) {
+    v.store_unaligned(p);
+}
+
+/// a < b ? a : b and a > b ? a : b on every ISA: a NaN in a yields b.
+inline F32 min(F32 a, F32 b) {
+    return ::xsimd::select(a < b, a, b);
+}
+inline F32 max(F32 a, F32 b) {
+    return ::xsimd::select(a > b, a, b);
+}
+inline I16 min(I16 a, I16 b) {
+    return ::xsimd::min(a, b);
+}
+inline I16 max(I16 a, I16 b) {
+    return ::xsimd::max(a, b);
+}
+inline I32 min(I32 a, I32 b) {
+    return ::xsimd::min(a, b);
+}
+inline I32 max(I32 a, I32 b) {
+    return ::xsimd::max(a, b);
+}
+
+/// Float to int32 towards zero; |v| < 2^31.
+inline I32 truncate(F32 v) {
+    return ::xsimd::to_int(v);
+}
+inline F32 to_float(I32 v) {
+    return ::xsimd::to_float(v);
+}
+
+#if defined(__AVX512BW__)
+
+inline Mask32 as_int(MaskF m) {
+    return Mask32(m.data);
+}
+inline MaskF as_float(Mask32 m) {
+    return MaskF(m.data);
+}
+inline std::uint32_t bits(Mask32 m) {
+    return static_cast<std::uint32_t>(m.data);
+}
+inline I16 mul_round(I16 a, I16 b) {
+    return _mm512_mulhrs_epi16(a, b);
+}
+inline I16 mul_high(I16 a, I16 b) {
+    return _mm512_mulhi_epi16(a, b);
+}
+inline I32 mul_add_pairs(I16 a, I16 b) {
+    return _mm512_madd_epi16(a, b);
+}
+inline I16 mul_add_bytes(I16 u8, I16 s8) {
+    return _mm512_maddubs_epi16(u8, s8);
+}
+inline I16 zip_lo16(I16 a, I16 b) {
+    return _mm512_unpacklo_epi16(a, b);
+}
+inline I16 zip_hi16(I16 a, I16 b) {
+    return _mm512_unpackhi_epi16(a, b);
+}
+inline I16 zip_lo32(I16 a, I16 b) {
+    return _mm512_unpacklo_epi32(a, b);
+}
+inline I16 zip_hi32(I16 a, I16 b) {
+    return _mm512_unpackhi_epi32(a, b);
+}
+inline I16 zip_lo64(I16 a, I16 b) {
+    return _mm512_unpacklo_epi64(a, b);
+}
+inline I16 zip_hi64(I16 a, I16 b) {
+    return _mm512_unpackhi_epi64(a, b);
+}
+inline I16 narrow(I32 lo, I32 hi) {
+    return _mm512_packs_epi32(lo, hi);
+}
+inline I16 shuffle_bytes(I16 v, I16 pattern) {
+    return _mm512_shuffle_epi8(v, pattern);
+}
+/// kLanes32 consecutive unsigned 16-bit values, in order; and the way back, for values that fit.
+inline I32 load_widened(const std::uint16_t* p) {
+    return _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
+}
+inline void store_narrowed(std::int16_t* p, I32 v) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtepi32_epi16(v));
+}
+/// 64-bit loads of texel pairs: lane k gets the pairs at offset[8 k] (low half) and offset[8 k +
+/// 1].
+inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+    const auto pair = [&](int k) {
+        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
+        return _mm_castpd_si128(_mm_loadh_pd(
+            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
+    };
+    const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(1), 1);
+    const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(2)), pair(3), 1);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+inline I16 broadcast_lane(const void* p) {
+    return _mm512_broadcast_i32x4(_mm_loadu_si128(static_cast<const __m128i*>(p)));
+}
+
+#elif defined(__AVX2__)
+
+inline Mask32 as_int(MaskF m) {
+    return Mask32(_mm256_castps_si256(m.data));
+}
+inline MaskF as_float(Mask32 m) {
+    return MaskF(_mm256_castsi256_ps(m.data));
+}
+inline std::uint32_t bits(Mask32 m) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(m.data)));
+}
+inline I16 mul_round(I16 a, I16 b) {
+    return _mm256_mulhrs_epi16(a, b);
+}
+inline I16 mul_high(I16 a, I16 b) {
+    return _mm256_mulhi_epi16(a, b);
+}
+inline I32 mul_add_pairs(I16 a, I16 b) {
+    return _mm256_madd_epi16(a, b);
+}
+inline I16 mul_add_bytes(I16 u8, I16 s8) {
+    return _mm256_maddubs_epi16(u8, s8);
+}
+inline I16 zip_lo16(I16 a, I16 b) {
+    return _mm256_unpacklo_epi16(a, b);
+}
+inline I16 zip_hi16(I16 a, I16 b) {
+    return _mm256_unpackhi_epi16(a, b);
+}
+inline I16 zip_lo32(I16 a, I16 b) {
+    return _mm256_unpacklo_epi32(a, b);
+}
+inline I16 zip_hi32(I16 a, I16 b) {
+    return _mm256_unpackhi_epi32(a, b);
+}
+inline I16 zip_lo64(I16 a, I16 b) {
+    return _mm256_unpacklo_epi64(a, b);
+}
+inline I16 zip_hi64(I16 a, I16 b) {
+    return _mm256_unpackhi_epi64(a, b);
+}
+inline I16 narrow(I32 lo, I32 hi) {
+    return _mm256_packs_epi32(lo, hi);
+}
+inline I16 shuffle_bytes(I16 v, I16 pattern) {
+    return _mm256_shuffle_epi8(v, pattern);
+}
+inline I32 load_widened(const std::uint16_t* p) {
+    return _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
+inline void store_narrowed(std::int16_t* p, I32 v) {
+    const __m256i pairs = _mm256_permute4x64_epi64(_mm256_packs_epi32(v, v), 0x08);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(pairs));
+}
+inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+    const auto pair = [&](int k) {
+        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
+        return _mm_castpd_si128(_mm_loadh_pd(
+            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
+    };
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(1), 1);
+}
+inline I16 broadcast_lane(const void* p) {
+    return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(p)));
+}
+
+#elif defined(__SSE4_2__)
+
+inline Mask32 as_int(MaskF m) {
+    return Mask32(_mm_castps_si128(m.data));
+}
+inline MaskF as_float(Mask32 m) {
+    return MaskF(_mm_castsi128_ps(m.data));
+}
+inline std::uint32_t bits(Mask32 m) {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(m.data)));
+}
+inline I16 mul_round(I16 a, I16 b) {
+    return _mm_mulhrs_epi16(a, b);
+}
+inline I16 mul_high(I16 a, I16 b) {
+    return _mm_mulhi_epi16(a, b);
+}
+inline I32 mul_add_pairs(I16 a, I16 b) {
+    return _mm_madd_epi16(a, b);
+}
+inline I16 mul_add_bytes(I16 u8, I16 s8) {
+    return _mm_maddubs_epi16(u8, s8);
+}
+inline I16 zip_lo16(I16 a, I16 b) {
+    return _mm_unpacklo_epi16(a, b);
+}
+inline I16 zip_hi16(I16 a, I16 b) {
+    return _mm_unpackhi_epi16(a, b);
+}
+inline I16 zip_lo32(I16 a, I16 b) {
+    return _mm_unpacklo_epi32(a, b);
+}
+inline I16 zip_hi32(I16 a, I16 b) {
+    return _mm_unpackhi_epi32(a, b);
+}
+inline I16 zip_lo64(I16 a, I16 b) {
+    return _mm_unpacklo_epi64(a, b);
+}
+inline I16 zip_hi64(I16 a, I16 b) {
+    return _mm_unpackhi_epi64(a, b);
+}
+inline I16 narrow(I32 lo, I32 hi) {
+    return _mm_packs_epi32(lo, hi);
+}
+inline I16 shuffle_bytes(I16 v, I16 pattern) {
+    return _mm_shuffle_epi8(v, pattern);
+}
+inline I32 load_widened(const std::uint16_t* p) {
+    return _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+}
+inline void store_narrowed(std::int16_t* p, I32 v) {
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(v, v));
+}
+inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+    const auto pair = [&](int k) {
+        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
+        return _mm_castpd_si128(_mm_loadh_pd(
+            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
+    };
+    return pair(0);
+}
+inline I16 broadcast_lane(const void* p) {
+    return _mm_loadu_si128(static_cast<const __m128i*>(p));
+}
+
+#elif defined(__aarch64__)
+
+inline Mask32 as_int(MaskF m) {
+    return Mask32(m.data);
+}
+inline MaskF as_float(Mask32 m) {
+    return MaskF(m.data);
+}
+inline std::uint32_t bits(Mask32 m) {
+    const uint32_t weights[4] = {1, 2, 4, 8};
+    return vaddvq_u32(vandq_u32(m.data, vld1q_u32(weights)));
+}
+inline I16 mul_round(I16 a, I16 b) {
+    return vqrdmulhq_s16(a, b);
+}
+inline I16 mul_high(I16 a, I16 b) {
+    const int32x4_t lo = vmull_s16(vget_low_s16(a), vget_low_s16(b));
+    const int32x4_t hi = vmull_high_s16(a, b);
+    return vuzp2q_s16(vreinterpretq_s16_s32(lo), vreinterpretq_s16_s32(hi));
+}
+inline I32 mul_add_pairs(I16 a, I16 b) {
+    return vpaddq_s32(vmull_s16(vget_low_s16(a), vget_low_s16(b)), vmull_high_s16(a, b));
+}
+/// Saturates like the x86 instruction, though no caller reaches the ends.
+inline I16 mul_add_bytes(I16 u8, I16 s8) {
+    const uint8x16_t u = vreinterpretq_u8_s16(u8);
+    const int8x16_t s = vreinterpretq_s8_s16(s8);
+    const int16x8_t lo =
+        vmulq_s16(vreinterpretq_s16_u16(vmovl_u8(vget_low_u8(u))), vmovl_s8(vget_low_s8(s)));
+    const int16x8_t hi = vmulq_s16(vreinterpretq_s16_u16(vmovl_high_u8(u)), vmovl_high_s8(s));
+    return vqaddq_s16(vuzp1q_s16(lo, hi), vuzp2q_s16(lo, hi));
+}
+inline I16 zip_lo16(I16 a, I16 b) {
+    return vzip1q_s16(a, b);
+}
+inline I16 zip_hi16(I16 a, I16 b) {
+    return vzip2q_s16(a, b);
+}
+inline I16 zip_lo32(I16 a, I16 b) {
+    return vreinterpretq_s16_s32(vzip1q_s32(vreinterpretq_s32_s16(a), vreinterpretq_s32_s16(b)));
+}
+inline I16 zip_hi32(I16 a, I16 b) {
+    return vreinterpretq_s16_s32(vzip2q_s32(vreinterpretq_s32_s16(a), vreinterpretq_s32_s16(b)));
+}
+inline I16 zip_lo64(I16 a, I16 b) {
+    return vreinterpretq_s16_s64(vzip1q_s64(vreinterpretq_s64_s16(a), vreinterpretq_s64_s16(b)));
+}
+inline I16 zip_hi64(I16 a, I16 b) {
+    return vreinterpretq_s16_s64(vzip2q_s64(vreinterpretq_s64_s16(a), vreinterpretq_s64_s16(b)));
+}
+inline I16 narrow(I32 lo, I32 hi) {
+    return vqmovn_high_s32(vqmovn_s32(lo), hi);
+}
+inline I16 shuffle_bytes(I16 v, I16 pattern) {
+    return vreinterpretq_s16_u8(vqtbl1q_u8(vreinterpretq_u8_s16(v), vreinterpretq_u8_s16(pattern)));
+}
+inline I32 load_widened(const std::uint16_t* p) {
+    return vreinterpretq_s32_u32(vmovl_u16(vld1_u16(p)));
+}
+inline void store_narrowed(std::int16_t* p, I32 v) {
+    vst1_s16(p, vmovn_s32(v));
+}
+inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+    return vreinterpretq_s16_s8(vcombine_s8(vld1_s8(base + offset[0]), vld1_s8(base + offset[1])));
+}
+inline I16 broadcast_lane(const void* p) {
+    return vld1q_s16(static_cast<const int16_t*>(p));
+}
+
+#else
+#error "no vector wrappers for this architecture"
+#endif
+
+/// Sign-extends the lower or upper half of each lane. Shifting down what was zipped with itself
+/// needs no zero register.
+inline I32 widen_lo(I16 v) {
+    return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(zip_lo16(v, v)) >> 16;
+}
+inline I32 widen_hi(I16 v) {
+    return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(zip_hi16(v, v)) >> 16;
+}
+
+inline I16 as_signed(U16 v) {
+    return ::xsimd::bitwise_cast<I16>(v);
+}
+inline U16 as_unsigned(I16 v) {
+    return ::xsimd::bitwise_cast<U16>(v);
+}
+/// Zeros come in from the left.
+inline I16 shift_right_logical(I16 v, int n) {
+    return as_signed(as_unsigned(v) >> n);
+}
+
+}  // namespace
+}  // namespace burnish::BURNISH_ISA
