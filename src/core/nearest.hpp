@@ -48,8 +48,9 @@ inline std::string_view nearest_name(std::string_view word,
 }
 
 /// End of a message about an unknown name: "did you mean 'nv2a'?", or, where nothing is near,
-/// "expected geforce256, nv2a, ideal".
+/// "expected geforce256, nv2a, ideal"; "there is none" without names.
 inline std::string expected_one_of(std::string_view word, std::span<const std::string_view> names) {
+    if (names.empty()) return "there is none";
     const std::string_view near = nearest_name(word, names);
     if (!near.empty()) return "did you mean '" + std::string(near) + "'?";
     std::string list = "expected ";

@@ -1,1 +1,19 @@
+#include "core/file_library.hpp"
+#include "io/image_io.hpp"
+#include "io/read_mesh.hpp"
+#include "io/scene_io.hpp"
+#include "io/write_mesh.hpp"
 
+/// What burnish looks up when a file is first needed.
+extern "C" const burnish::FileLibrary* burnish_file_library() {
+    static constexpr burnish::FileLibrary kLibrary{
+        .load_mesh = burnish::read_mesh_file,
+        .load_image = burnish::read_image_file,
+        .save_frame = burnish::write_frame_file,
+        .save_image = burnish::write_image_file,
+        .save_mesh = burnish::write_mesh_file,
+        .load_scene = burnish::read_scene_file,
+        .scene_for_mesh = burnish::scene_for_mesh_file,
+    };
+    return &kLibrary;
+}

@@ -1,1 +1,183 @@
+// The one file that sees OpenImageIO. No fmt here: OpenImageIO's headers bring a copy of it that is
+// configured otherwise.
+#include "io/image_io.hpp"
 
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+
+namespace burnish {
+namespace {
+
+/// First line of what OpenImageIO says; its texts may hold several.
+std::string one_line(std::string text) {
+    text.erase(std::min(text.find('\n'), text.size()));
+    return text.empty() ? "no reason given" : text;
+}
+
+void require_readable_file(const std::filesystem::path& path) {
+    std::error_code failure;
+    if (std::filesystem::is_directory(path, failure))
+        throw Error(ErrorCode::io, path.string() + ": is a directory, expected an image");
+    if (access(path.c_str(), R_OK) != 0)
+        throw Error(ErrorCode::io, path.string() + ": " + std::strerror(errno));
+    if (std::filesystem::file_size(path, failure) == 0 && !failure)
+        throw Error(ErrorCode::bad_input, path.string() + ": empty file, expected an image");
+}
+
+/// Data maps hold more than colour: alpha must come back as it was stored.
+OIIO::ImageSpec keep_alpha_apart() {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+void check_size(const OIIO::ImageSpec& spec, const std::string& name) {
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1)
+        throw Error(ErrorCode::bad_input, name + ": no two-dimensional picture in it");
+    if (spec.width > Texture::kMaxSize || spec.height > Texture::kMaxSize)
+        throw Error(ErrorCode::limit, name + ": " + std::to_string(spec.width) + " x " +
+                                          std::to_string(spec.height) +
+                                          " pixels, expected at most " +
+                                          std::to_string(Texture::kMaxSize) + " a side");
+}
+
+/// Widens 1 or 2 channels to grey, or 3 to opaque, in place; texels lie `channels` bytes apart.
+void spread_channels(std::vector<std::uint8_t>& bytes, int channels) {
+    if (channels == 4) return;
+    const auto from = static_cast<std::size_t>(channels);
+    // From the end, so that nothing is overwritten before it is read.
+    for (std::size_t i = bytes.size() / 4; i-- > 0;) {
+        const std::uint8_t* source = bytes.data() + i * from;
+        const std::uint8_t red = source[0];
+        const std::uint8_t green = channels == 3 ? source[1] : red;
+        const std::uint8_t blue = channels == 3 ? source[2] : red;
+        const std::uint8_t alpha = channels == 2 ? source[1] : std::uint8_t{255};
+        std::uint8_t* target = bytes.data() + i * 4;
+        target[0] = red;
+        target[1] = green;
+        target[2] = blue;
+        target[3] = alpha;
+    }
+}
+
+/// Pixels to be written, described the way OpenImageIO asks for them.
+struct Source {
+    const void* pixels;
+    std::ptrdiff_t pitch;
+    OIIO::ImageSpec spec;
+};
+
+Source describe(const Framebuffer& frame) {
+    const OIIO::TypeDesc type = frame.format() == PixelFormat::rgba8    ? OIIO::TypeUInt8
+                                : frame.format() == PixelFormat::rgba16 ? OIIO::TypeUInt16
+                                                                        : OIIO::TypeFloat;
+    return {frame.pixels(), frame.pitch(), {frame.width(), frame.height(), 4, type}};
+}
+
+Source describe(const Image8& image) {
+    const auto row = 4 * static_cast<std::size_t>(std::max(image.width, 0));
+    if (image.width < 1 || image.height < 1 ||
+        image.rgba.size() != row * static_cast<std::size_t>(image.height))
+        throw Error(ErrorCode::bad_option, "an image whose bytes do not fit its size");
+    return {image.rgba.data(),
+            static_cast<std::ptrdiff_t>(row),
+            {image.width, image.height, 4, OIIO::TypeUInt8}};
+}
+
+/// Writes to `file_name`, or into `memory` if that is given; the format follows the name.
+void encode(const Source& source, const std::string& file_name, const std::string& shown_name,
+            OIIO::Filesystem::IOProxy* memory) {
+    const auto fail = [&](const std::string& reason) {
+        throw Error(ErrorCode::io, shown_name + ": cannot be written: " + one_line(reason));
+    };
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file_name);
+    if (!output) {
+        OIIO::geterror();
+        throw Error(ErrorCode::io, shown_name + ": no image format has this extension, expected " +
+                                       "one like .png or .exr");
+    }
+    OIIO::ImageSpec spec = source.spec;
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("png:compressionLevel", 1);  // 3 times as fast as the default, files 10 % larger
+    if (memory != nullptr && !output->set_ioproxy(memory)) fail(output->geterror());
+    if (!output->open(file_name, spec)) fail(output->geterror());
+    const bool written =
+        output->write_image(source.spec.format, source.pixels,
+                            static_cast<OIIO::stride_t>(spec.nchannels) *
+                                static_cast<OIIO::stride_t>(source.spec.format.size()),
+                            source.pitch);
+    const std::string reason = written ? std::string() : output->geterror();
+    const bool closed = output->close();
+    if (!written) fail(reason);
+    if (!closed) fail(output->geterror());
+}
+
+void write_png_to_stdout(const Source& source) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    encode(source, "stdout.png", "standard output", &memory);
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t count = write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0)
+            throw Error(ErrorCode::io,
+                        std::string("standard output: cannot be written: ") + std::strerror(errno));
+        done += static_cast<std::size_t>(count);
+    }
+}
+
+void write_source(const Source& source, const std::filesystem::path& path) {
+    if (path == "-") return write_png_to_stdout(source);
+    AtomicFile file(path);
+    encode(source, file.temporary().string(), path.string(), nullptr);
+    file.commit();
+}
+
+}  // namespace
+
+Image8 read_image_file(const std::filesystem::path& path) {
+    require_readable_file(path);
+    const std::string name = path.string();
+    const OIIO::ImageSpec config = keep_alpha_apart();
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
+    if (!input)
+        throw Error(ErrorCode::bad_input,
+                    name + ": not an image that can be read: " + one_line(OIIO::geterror()));
+    check_size(input->spec(), name);
+    const int channels = std::min(input->spec().nchannels, 4);
+    try {
+        Image8 image(input->spec().width, input->spec().height);
+        const bool ok = input->read_image(0, 0, 0, channels, OIIO::TypeUInt8, image.rgba.data());
+        // A truncated JPEG or TIFF counts as read; only the pending error tells.
+        if (!ok || input->has_error())
+            throw Error(ErrorCode::bad_input,
+                        name + ": damaged image: " + one_line(input->geterror()));
+        spread_channels(image.rgba, channels);
+        return image;
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::limit, name + ": too large for the memory");
+    }
+}
+
+void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path) {
+    write_source(describe(frame), path);
+}
+
+void write_image_file(const Image8& image, const std::filesystem::path& path) {
+    write_source(describe(image), path);
+}
+
+}  // namespace burnish

@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <burnish/error.hpp>
+#include <utility>
+
+#include "core/nearest.hpp"
+#include "io/read_mesh.hpp"
+#include "io/scene_io_parts.hpp"
+
+namespace burnish {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, DepthTest>, 8> kDepthTests{
+    {{"never", DepthTest::never},
+     {"less", DepthTest::less},
+     {"equal", DepthTest::equal},
+     {"lequal", DepthTest::lequal},
+     {"greater", DepthTest::greater},
+     {"notequal", DepthTest::notequal},
+     {"gequal", DepthTest::gequal},
+     {"always", DepthTest::always}}};
+constexpr std::array<std::pair<std::string_view, Cull>, 3> kCulls{
+    {{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}}};
+constexpr std::array<std::pair<std::string_view, Space>, 3> kSpaces{
+    {{"object", Space::object}, {"clip", Space::clip}, {"window", Space::window}}};
+constexpr std::array<std::pair<std::string_view, Topology>, 5> kTopologies{
+    {{"triangles", Topology::triangles},
+     {"triangle_strip", Topology::triangle_strip},
+     {"triangle_fan", Topology::triangle_fan},
+     {"quads", Topology::quads},
+     {"quad_strip", Topology::quad_strip}}};
+
+RasterState read_raster(const Section& section) {
+    section.accept_only("blend", "off");
+    RasterState raster;
+    raster.depth_test =
+        section.choice<DepthTest>("depth_test", kDepthTests).value_or(raster.depth_test);
+    raster.depth_write = section.boolean("depth_write").value_or(raster.depth_write);
+    raster.cull = section.choice<Cull>("cull", kCulls).value_or(raster.cull);
+    return raster;
+}
+
+glm::mat4 read_placement(const Section& section) {
+    const glm::vec3 translate = section.vec3("translate").value_or(glm::vec3(0.0F));
+    const glm::vec4 rotate = section.vec4("rotate").value_or(glm::vec4(0.0F, 1.0F, 0.0F, 0.0F));
+    const float scale = section.number("scale", kPositive).value_or(1.0F);
+    try {
+        return placement(translate, glm::vec3(rotate), rotate.w, scale);
+    } catch (const Error& error) {
+        section.fail("rotate", fmt::format("'rotate' in {}: {}", section.label(), error.what()));
+    }
+}
+
+glm::vec4 read_color(const Section& section, std::string_view key, std::string_view bytes_key) {
+    glm::vec4 color{0.0F, 0.0F, 0.0F, 1.0F};
+    if (section.has(key) && section.has(bytes_key))
+        section.fail(bytes_key, fmt::format("both '{}' and '{}' in {}, expected one", key,
+                                            bytes_key, section.label()));
+    if (const auto bytes = section.numbers(bytes_key, 3, 4, {0.0, 255.0})) {
+        for (std::size_t i = 0; i < bytes->size(); ++i)
+            color[static_cast<int>(i)] = (*bytes)[i] / 255.0F;
+    } else if (const auto values = section.numbers(key, 3, 4)) {
+        for (std::size_t i = 0; i < values->size(); ++i) color[static_cast<int>(i)] = (*values)[i];
+    }
+    return color;
+}
+
+RawVertex read_vertex(const toml::table& table) {
+    const Section section(table, "a vertex",
+                          {"position", "color0", "color0_bytes", "color1", "color1_bytes", "uv0",
+                           "uv1", "uv2", "uv3"});
+    RawVertex vertex;
+    const auto position = section.numbers("position", 3, 4);
+    if (!position) section.fail("position", "a vertex has no 'position'");
+    for (std::size_t i = 0; i < position->size(); ++i)
+        vertex.position[static_cast<int>(i)] = (*position)[i];
+    vertex.color0 = read_color(section, "color0", "color0_bytes");
+    vertex.color1 = read_color(section, "color1", "color1_bytes");
+    constexpr std::array<std::string_view, 4> kUvKeys{"uv0", "uv1", "uv2", "uv3"};
+    for (std::size_t unit = 0; unit < kUvKeys.size(); ++unit) {
+        const auto uv = section.numbers(kUvKeys[unit], 2, 4);
+        if (!uv) continue;
+        for (std::size_t i = 0; i < uv->size(); ++i)
+            vertex.uv[unit][static_cast<int>(i)] = (*uv)[i];
+    }
+    return vertex;
+}
+
+RawVertices read_vertices(const Section& section) {
+    RawVertices raw;
+    raw.space = section.choice<Space>("space", kSpaces).value_or(raw.space);
+    raw.topology = section.choice<Topology>("primitive", kTopologies).value_or(raw.topology);
+    for (const toml::table* table : section.tables("vertices"))
+        raw.vertices.push_back(read_vertex(*table));
+    if (raw.space != Space::object) {
+        for (const std::string_view key : {"translate", "rotate", "scale"})
+            if (section.has(key))
+                section.fail(key, fmt::format("'{}' in {} moves nothing in this space, expected "
+                                              "space = \"object\"",
+                                              key, section.label()));
+    }
+    return raw;
+}
+
+Mesh read_mesh(const Section& section, const std::filesystem::path& directory,
+               std::vector<std::string>& notes) {
+    section.refuse_without("space", "vertices");
+    section.refuse_without("primitive", "vertices");
+    const std::filesystem::path file = directory / section.required_text("mesh");
+    try {
+        LoadedMesh loaded = read_mesh_file(file);
+        for (const std::string& note : loaded.report.notes())
+            notes.push_back(file.string() + ": " + note);
+        return std::move(loaded.mesh);
+    } catch (const Error& error) {
+        throw Error(error.code(), section.place("mesh") + ": " + error.what());
+    }
+}
+
+/// Raw vertices have colours but no normals: without a pipeline of their own they show the colours.
+std::shared_ptr<const Material> raw_material(const Section& section, const NamedMaterial& named) {
+    if (named.names_pipeline && !named.material->program)
+        section.fail("material",
+                     fmt::format("{} draws raw vertices with the model of '{}', expected "
+                                 "a material with 'units'",
+                                 section.label(), named.material->name));
+    if (named.names_pipeline) return named.material;
+    Material material = *named.material;
+    material.program = vertex_color_program({});
+    return std::make_shared<const Material>(std::move(material));
+}
+
+NamedMaterial find_material(const Section& section, const MaterialTable& materials) {
+    const std::optional<std::string> name = section.text("material");
+    if (!name) return {std::make_shared<const Material>(), false};
+    const auto found = materials.find(*name);
+    if (found == materials.end())
+        section.fail("material", fmt::format("'material' in {} names the unknown material '{}', {}",
+                                             section.label(), *name,
+                                             expected_one_of(*name, names_of(materials))));
+    return found->second;
+}
+
+}  // namespace
+
+std::vector<Object> read_objects(const Section& root, const MaterialTable& materials,
+                                 const std::filesystem::path& directory,
+                                 std::vector<std::string>& notes) {
+    std::vector<Object> objects;
+    for (const toml::table* table : root.tables("objects")) {
+        const Section section(
+            *table, "[[objects]]",
+            {"mesh", "material", "translate", "rotate", "scale", "space", "primitive", "vertices",
+             "depth_test", "depth_write", "cull", "blend"});
+        if (section.has("mesh") == section.has("vertices"))
+            section.fail("mesh", "[[objects]] needs one of 'mesh' and 'vertices'");
+        Object object;
+        object.raster = read_raster(section);
+        object.world_from_object = read_placement(section);
+        const NamedMaterial named = find_material(section, materials);
+        if (section.has("vertices")) {
+            object.geometry = read_vertices(section);
+            object.material = raw_material(section, named);
+        } else {
+            object.geometry = read_mesh(section, directory, notes);
+            object.material = named.material;
+        }
+        objects.push_back(std::move(object));
+    }
+    return objects;
+}
+
+}  // namespace burnish

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <burnish/files.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/scene_io_section.hpp"
+
+/// The parts of a scene file that refer to each other by name.
+namespace burnish {
+
+struct NamedTexture {
+    TexturePtr texture;
+    float map_scale = 0.0F;  ///< m of a generated tangent or bitangent map, else 0
+};
+using TextureTable = std::map<std::string, NamedTexture, std::less<>>;
+
+/// Reads every [[textures]] table; files are relative to `directory`.
+TextureTable read_textures(const Section& root, const std::filesystem::path& directory);
+
+/// The texture that `key` names; nothing for a missing key, an error for an unknown name.
+std::optional<NamedTexture> texture_of(const Section& section, std::string_view key,
+                                       const TextureTable& textures);
+
+struct NamedMaterial {
+    std::shared_ptr<const Material> material;
+    bool names_pipeline = false;  ///< says `model` or `units`; otherwise raw vertices get a program
+};
+using MaterialTable = std::map<std::string, NamedMaterial, std::less<>>;
+
+MaterialTable read_materials(const Section& root, const TextureTable& textures);
+
+/// The pipeline of materials that bring textures or vertex colours but no model: colour times the
+/// texel of unit 0, if it has a texture; alpha from the colour.
+ProgramMaterial vertex_color_program(std::vector<TexturePtr> units);
+
+/// Reads every [[objects]] table in order. Lines about meshes go to `notes`.
+std::vector<Object> read_objects(const Section& root, const MaterialTable& materials,
+                                 const std::filesystem::path& directory,
+                                 std::vector<std::string>& notes);
+
+/// Throws Error{bad_input} for a name that two tables have.
+template <class Table>
+void require_new_name(const Section& section, const Table& table, const std::string& name) {
+    if (table.contains(name))
+        section.fail("name", "second " + section.label() + " with the name '" + name + "'");
+}
+
+/// The keys of a table of names, for messages.
+template <class Table>
+std::vector<std::string_view> names_of(const Table& table) {
+    std::vector<std::string_view> names;
+    for (const auto& [name, entry] : table) names.push_back(name);
+    return names;
+}
+
+}  // namespace burnish
