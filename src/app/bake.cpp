@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <burnish/files.hpp>
+#include <burnish/shapes.hpp>
+#include <filesystem>
+
+#include "app/verbs.hpp"
+#include "models/brushed.hpp"
+
+namespace burnish::app {
+namespace {
+
+/// "DIR/normal.png" for a directory, "PREFIX-normal.png" for anything else.
+std::filesystem::path map_path(const std::filesystem::path& output, const std::string& name) {
+    std::error_code ignored;
+    const bool directory =
+        output.filename().empty() || std::filesystem::is_directory(output, ignored);
+    if (directory) return output / (name + ".png");
+    return output.parent_path() / (output.filename().string() + "-" + name + ".png");
+}
+
+MeshData make_shape(const BakeMeshOptions& options) {
+    switch (options.shape) {
+        case Shape::sphere:
+            return shapes::sphere(options.columns, options.rows);
+        case Shape::knot:
+            return shapes::torus_knot(options.columns, options.rows);
+        case Shape::plane:
+            return shapes::plane(options.columns, options.rows);
+        case Shape::cube:
+            break;
+    }
+    return shapes::cube();
+}
+
+}  // namespace
+
+void run(const BakeBrushedOptions& options) {
+    const BrushedMaps maps = brushed_maps(options.seed, options.size);
+    save_image(maps.normal, map_path(options.output, "normal"));
+    save_image(maps.tangent, map_path(options.output, "tangent"));
+    save_image(maps.bitangent, map_path(options.output, "bitangent"));
+    save_image(maps.specular, map_path(options.output, "specular"));
+    fmt::print("{}: four maps of {} x {}, map_scale = {}\n", map_path(options.output, "*").string(),
+               options.size, options.size, maps.map_scale);
+}
+
+void run(const BakeMeshOptions& options) {
+    const MeshData mesh = make_shape(options);
+    save_mesh(mesh, options.output);
+    fmt::print("{}: {} vertices, {} triangles\n", options.output.string(), mesh.positions.size(),
+               mesh.indices.size() / 3);
+}
+
+}  // namespace burnish::app

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "app/picture.hpp"
+#include "app/stats.hpp"
+#include "app/verbs.hpp"
+
+namespace burnish::app {
+namespace {
+
+/// Milliseconds of many frames.
+struct Times {
+    std::vector<double> sorted;
+
+    explicit Times(std::vector<double> values) : sorted(std::move(values)) {
+        std::sort(sorted.begin(), sorted.end());
+    }
+    /// The smallest value that at least `share` of all do not exceed, share in (0, 1].
+    double quantile(double share) const {
+        const auto rank =
+            static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+        return sorted[std::max<std::size_t>(rank, 1) - 1];
+    }
+    double median() const {
+        const std::size_t half = sorted.size() / 2;
+        return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+    }
+};
+
+struct Measurement {
+    std::vector<double> frame, geometry, tiles;
+    FrameStats last;
+};
+
+Measurement measure(Renderer& renderer, const Scene& scene, Framebuffer& frame, int frames) {
+    constexpr int kWarmUp = 2;
+    Measurement result;
+    for (int i = 0; i < kWarmUp + frames; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        result.last = draw(renderer, scene, frame);
+        const std::chrono::duration<double, std::milli> time =
+            std::chrono::steady_clock::now() - start;
+        if (i < kWarmUp) continue;
+        result.frame.push_back(time.count());
+        result.geometry.push_back(result.last.geometry_ms);
+        result.tiles.push_back(result.last.tiles_ms);
+    }
+    return result;
+}
+
+/// Million items per second.
+double rate(double items, double ms) {
+    return ms > 0.0 ? items / (1000.0 * ms) : 0.0;
+}
+
+}  // namespace
+
+void run(const BenchOptions& options) {
+    Renderer renderer = make_renderer(options.picture);
+    const Scene scene = load_picture(options.picture);
+    Framebuffer frame(scene.width, scene.height, scene.format);
+    const Measurement measured = measure(renderer, scene, frame, options.frames);
+    const Times times(measured.frame);
+    const double geometry = Times(measured.geometry).median();
+    const double tiles = Times(measured.tiles).median();
+    const double pixels = static_cast<double>(scene.width) * scene.height;
+    const auto shaded = static_cast<double>(measured.last.shaded_pixels);
+    if (options.json) {
+        fmt::print(
+            "{{\"input\": {}, \"width\": {}, \"height\": {}, \"machine\": {}, \"isa\": \"{}\", "
+            "\"threads\": {}, \"frames\": {}, \"median_ms\": {:.4f}, \"min_ms\": {:.4f}, "
+            "\"max_ms\": {:.4f}, \"p95_ms\": {:.4f}, \"geometry_ms\": {:.4f}, \"tiles_ms\": "
+            "{:.4f}, \"mpixel_per_s\": {:.3f}, \"shaded_mpixel_per_s\": {:.3f}, \"last_frame\": "
+            "{}}}\n",
+            json_string(options.picture.input.string()), scene.width, scene.height,
+            json_string(scene.machine.name), renderer.isa(), renderer.threads(), options.frames,
+            times.median(), times.sorted.front(), times.sorted.back(), times.quantile(0.95),
+            geometry, tiles, rate(pixels, times.median()), rate(shaded, times.median()),
+            stats_json(measured.last, renderer, measured.frame.back()));
+        return;
+    }
+    fmt::print(
+        "{}: {} x {}, machine {}, {}, {} thread{}, {} frames\n"
+        "frame     median {:.3f} ms, min {:.3f}, max {:.3f}, p95 {:.3f}\n"
+        "stages    geometry {:.3f} ms, tiles {:.3f} ms (medians)\n"
+        "rate      {:.1f} Mpixel/s of the picture, {:.1f} shaded Mpixel/s\n",
+        options.picture.input.string(), scene.width, scene.height, scene.machine.name,
+        renderer.isa(), renderer.threads(), renderer.threads() == 1 ? "" : "s", options.frames,
+        times.median(), times.sorted.front(), times.sorted.back(), times.quantile(0.95), geometry,
+        tiles, rate(pixels, times.median()), rate(shaded, times.median()));
+    if (options.picture.verbose)
+        fmt::print("{}", stats_text(measured.last, renderer, measured.frame.back()));
+}
+
+}  // namespace burnish::app

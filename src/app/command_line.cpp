@@ -1,0 +1,327 @@
+// The one file that sees CLI11, which takes seconds to compile.
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <burnish/error.hpp>
+#include <burnish/framebuffer.hpp>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "core/nearest.hpp"
+
+namespace burnish::app {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) {
+    throw Error(ErrorCode::bad_option, message);
+}
+
+/// `count` finite numbers with commas between them; `option` is for the message.
+std::vector<float> parse_numbers(const std::string& option, const std::string& text,
+                                 std::size_t least, std::size_t most) {
+    std::vector<float> values;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        float value = 0.0F;
+        const auto [stop, failure] = std::from_chars(at, end, value);
+        const bool separated = stop == end || *stop == ',';
+        if (failure != std::errc() || !separated || !std::isfinite(value)) break;
+        values.push_back(value);
+        if (stop == end) {
+            if (values.size() < least || values.size() > most) break;
+            return values;
+        }
+        at = stop + 1;
+    }
+    fail(fmt::format(
+        "{} {}, expected {} numbers with commas between them", option, text,
+        least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most)));
+}
+
+glm::vec3 parse_vec3(const std::string& option, const std::string& text) {
+    const std::vector<float> v = parse_numbers(option, text, 3, 3);
+    return {v[0], v[1], v[2]};
+}
+
+glm::ivec2 parse_size(const std::string& text) {
+    glm::ivec2 size{0, 0};
+    const char* const end = text.data() + text.size();
+    const auto [cross, bad_width] = std::from_chars(text.data(), end, size.x);
+    if (bad_width == std::errc() && cross != end && *cross == 'x') {
+        const auto [stop, bad_height] = std::from_chars(cross + 1, end, size.y);
+        const bool fits = size.x >= 1 && size.y >= 1 && size.x <= Framebuffer::kMaxSize &&
+                          size.y <= Framebuffer::kMaxSize;
+        if (bad_height == std::errc() && stop == end && fits) return size;
+    }
+    fail(
+        fmt::format("--size {}, expected WIDTHxHEIGHT, each 1 .. {}", text, Framebuffer::kMaxSize));
+}
+
+Light parse_light(const std::string& text) {
+    const std::vector<float> v = parse_numbers("--light", text, 3, 4);
+    Light light;
+    light.position = {v[0], v[1], v[2]};
+    light.position_w = v.size() == 4 ? v[3] : 0.0F;
+    if (light.position_w != 0.0F && light.position_w != 1.0F)
+        fail(fmt::format("--light {}, expected W = 0 for a direction or 1 for a position", text));
+    if (light.position_w == 0.0F && light.position == glm::vec3(0.0F))
+        fail(fmt::format("--light {}, expected a direction that is not zero", text));
+    return light;
+}
+
+glm::vec4 parse_background(const std::string& text) {
+    const std::vector<float> v = parse_numbers("--background", text, 3, 4);
+    for (const float value : v) {
+        if (value < 0.0F || value > 1.0F)
+            fail(fmt::format("--background {}, expected numbers of 0 .. 1", text));
+    }
+    return {v[0], v[1], v[2], v.size() == 4 ? v[3] : 1.0F};
+}
+
+/// Options of which one of a few words is the value.
+std::string known_word(const std::string& option, const std::string& word,
+                       const std::vector<std::string_view>& known) {
+    for (const std::string_view name : known) {
+        if (name == word) return word;
+    }
+    fail(fmt::format("{} {}, {}", option, word, expected_one_of(word, known)));
+}
+
+void add_camera_options(CLI::App& verb, CameraOptions& camera) {
+    const auto add_vec3 = [&](const char* name, std::optional<glm::vec3>& target,
+                              const char* text) {
+        verb.add_option_function<std::string>(
+                name,
+                [name, &target](const std::string& value) { target = parse_vec3(name, value); },
+                text)
+            ->type_name("X,Y,Z");
+    };
+    add_vec3("--camera-position", camera.position, "Where the camera stands");
+    add_vec3("--camera-focal-point", camera.focal_point, "What it looks at");
+    add_vec3("--camera-view-up", camera.view_up, "What is up in the picture");
+    verb.add_option("--camera-view-angle", camera.view_angle, "Vertical angle of view in degrees")
+        ->check(CLI::Range(0.001, 179.9))
+        ->type_name("DEG");
+    verb.add_option("--camera-azimuth", camera.azimuth, "Turns the camera about the focal point")
+        ->check(CLI::Range(-1e6, 1e6))
+        ->type_name("DEG");
+    verb.add_option("--camera-elevation", camera.elevation, "Raises it, looking at the focal point")
+        ->check(CLI::Range(-1e6, 1e6))
+        ->type_name("DEG");
+    verb.add_option("--camera-zoom", camera.zoom, "Divides the angle of view")
+        ->check(CLI::Range(0.001, 1e6))
+        ->type_name("FACTOR");
+}
+
+void add_picture_options(CLI::App& verb, PictureOptions& picture) {
+    verb.add_option("INPUT", picture.input, "Scene (.toml) or mesh (.obj .ply .off .stl)")
+        ->required()
+        ->type_name("");
+    verb.add_option_function<std::string>(
+            "--size", [&picture](const std::string& text) { picture.size = parse_size(text); },
+            "Size of the picture in pixels")
+        ->type_name("WxH");
+    verb.add_option("--threads", picture.threads, "Workers, exactly that many; 0: one per core")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N");
+    verb.add_option("--isa", picture.isa, "Instruction set; `burnish info` lists them")
+        ->type_name("NAME");
+    verb.add_option_function<std::string>(
+            "--machine",
+            [&picture](const std::string& name) {
+                picture.machine = known_word("--machine", name, machine_profile_names());
+            },
+            "Machine profile: geforce256, nv2a or ideal")
+        ->type_name("PROFILE");
+    verb.add_option_function<std::string>(
+            "--half-vector",
+            [&picture](const std::string& word) {
+                picture.half_vector =
+                    known_word("--half-vector", word, {"pixel", "vertex"}) == "pixel"
+                        ? HalfVector::pixel
+                        : HalfVector::vertex;
+            },
+            "Where half vectors are computed: pixel or vertex")
+        ->type_name("WHERE");
+    add_camera_options(verb, picture.camera);
+    verb.add_option_function<std::string>(
+            "--light",
+            [&picture](const std::string& text) { picture.lights = {parse_light(text)}; },
+            "The only light: direction towards it, or its position if W is 1")
+        ->type_name("X,Y,Z[,W]");
+    verb.add_option_function<std::string>(
+            "--background",
+            [&picture](const std::string& text) { picture.background = parse_background(text); },
+            "Colour where nothing is drawn, 0 .. 1")
+        ->type_name("R,G,B[,A]");
+    verb.add_option("-D", picture.overrides, "Any key of the scene, e.g. -D camera.near=0.5")
+        ->allow_extra_args(false)
+        ->type_name("KEY.PATH=VALUE");
+    CLI::Option* quiet = verb.add_flag("--quiet", picture.quiet, "Print errors only");
+    verb.add_flag("-v,--verbose", picture.verbose, "Print what was loaded and drawn")
+        ->excludes(quiet);
+}
+
+void add_render(CLI::App& verb, RenderOptions& options) {
+    add_picture_options(verb, options.picture);
+    verb.add_option("-o,--output", options.output,
+                    "Image file, PNG, EXR or other by extension; - writes PNG to standard output")
+        ->type_name("FILE");
+    verb.add_option("--samples", options.samples, "Samples per pixel: 1, 4, 9 or 16")
+        ->check(CLI::IsMember({1, 4, 9, 16}))
+        ->type_name("N");
+    verb.add_option("--turntable", options.turntable,
+                    "Pictures of one turn about the focal point; the output name holds {frame:4}")
+        ->check(CLI::Range(1, 9999))
+        ->type_name("N");
+    verb.add_option_function<std::string>(
+            "--stats",
+            [&options](const std::string& word) {
+                options.stats = known_word("--stats", word, {"text", "json"}) == "json"
+                                    ? StatsFormat::json
+                                    : StatsFormat::text;
+            },
+            "Print counts and times of the frame: text or json")
+        ->type_name("FORMAT");
+}
+
+void add_bench(CLI::App& verb, BenchOptions& options) {
+    add_picture_options(verb, options.picture);
+    verb.add_option("--frames", options.frames, "Frames to time, after two that are not")
+        ->check(CLI::Range(1, 1000000))
+        ->type_name("N");
+    verb.add_flag("--json", options.json, "Print JSON");
+}
+
+void add_bake_mesh(CLI::App& verb, BakeMeshOptions& options) {
+    static const std::map<std::string, Shape> kShapes{{"sphere", Shape::sphere},
+                                                      {"knot", Shape::knot},
+                                                      {"plane", Shape::plane},
+                                                      {"cube", Shape::cube}};
+    verb.add_option_function<std::string>(
+            "SHAPE",
+            [&options](const std::string& word) {
+                options.shape =
+                    kShapes.at(known_word("shape", word, {"sphere", "knot", "plane", "cube"}));
+            },
+            "sphere, knot, plane or cube")
+        ->required()
+        ->type_name("");
+    verb.add_option("--columns", options.columns, "Columns of the grid; segments along the knot")
+        ->type_name("N");
+    verb.add_option("--rows", options.rows, "Rows of the grid; sides of the knot's tube")
+        ->type_name("N");
+    verb.add_option("-o,--output", options.output, "Mesh file, .ply or .obj")
+        ->required()
+        ->type_name("FILE");
+}
+
+void add_bake_brushed(CLI::App& verb, BakeBrushedOptions& options) {
+    verb.add_option("--seed", options.seed, "Another seed gives other scratches")->type_name("N");
+    verb.add_option("--size", options.size, "Side of the square maps in texels")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+    verb.add_option("-o,--output", options.output,
+                    "Directory, or what the names of the four PNG files begin with")
+        ->required()
+        ->type_name("DIR-OR-PREFIX");
+}
+
+/// The parser and what it fills. Nothing moves: the parser keeps references.
+struct Parser {
+    CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
+    RenderOptions render;
+    BenchOptions bench;
+    InfoOptions info;
+    BakeBrushedOptions brushed;
+    BakeMeshOptions mesh;
+    CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
+    CLI::App* bake_verb = app.add_subcommand("bake", "Material maps and test meshes as files");
+    CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
+    CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
+    CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
+    CLI::App* info_verb =
+        app.add_subcommand("info", "Version, instruction sets, profiles, formats");
+
+    Parser() {
+        app.require_subcommand(1);
+        app.set_version_flag("--version", "burnish " BURNISH_VERSION);
+        bake_verb->require_subcommand(1);
+        add_render(*render_verb, render);
+        add_bench(*bench_verb, bench);
+        info_verb->add_flag("--json", info.json, "Print JSON");
+        add_bake_brushed(*brushed_verb, brushed);
+        add_bake_mesh(*mesh_verb, mesh);
+    }
+
+    Command chosen() const {
+        if (render_verb->parsed()) return render;
+        if (bench_verb->parsed()) return bench;
+        if (info_verb->parsed()) return info;
+        if (brushed_verb->parsed()) return brushed;
+        return mesh;
+    }
+};
+
+std::vector<std::string_view> verb_names(const CLI::App& app) {
+    std::vector<std::string_view> names;
+    for (const CLI::App* verb : app.get_subcommands({})) names.emplace_back(verb->get_name());
+    return names;
+}
+
+/// CLI11 speaks of unexpected arguments; for a misspelt command, say what commands there are.
+const CLI::App& require_known_verbs(const CLI::App& root, int argc, const char* const* argv) {
+    const CLI::App* app = &root;
+    for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+        const std::vector<std::string_view> names = verb_names(*app);
+        if (names.empty()) break;
+        if (std::find(names.begin(), names.end(), argv[i]) == names.end())
+            fail(fmt::format("unknown command '{}', {}", argv[i], expected_one_of(argv[i], names)));
+        app = app->get_subcommand(argv[i]);
+    }
+    return *app;
+}
+
+/// The first option that `verb` does not have, with the one that was probably meant.
+void require_known_options(const CLI::App& verb, int argc, const char* const* argv) {
+    std::vector<std::string> owned;
+    for (const CLI::Option* option : verb.get_options()) {
+        for (const std::string& name : option->get_lnames()) owned.push_back("--" + name);
+    }
+    const std::vector<std::string_view> names(owned.begin(), owned.end());
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view whole = argv[i];
+        const std::string_view word = whole.substr(0, whole.find('='));
+        if (word == "--" || !word.starts_with("--")) continue;
+        if (std::find(names.begin(), names.end(), word) != names.end()) continue;
+        const std::string_view near = nearest_name(word, names);
+        fail(near.empty() ? fmt::format("unknown option '{}', `burnish {} --help` lists them", word,
+                                        verb.get_name())
+                          : fmt::format("unknown option '{}', did you mean '{}'?", word, near));
+    }
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+    Parser parser;
+    const CLI::App& verb = require_known_verbs(parser.app, argc, argv);
+    try {
+        parser.app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return PrintText{verb.help()};
+    } catch (const CLI::CallForVersion& version) {
+        return PrintText{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        require_known_options(verb, argc, argv);
+        fail(error.what());
+    }
+    return parser.chosen();
+}
+
+}  // namespace burnish::app

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <burnish/machine.hpp>
+#include <burnish/scene.hpp>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What the user asked for, as plain data; only command_line.cpp knows the parser.
+namespace burnish::app {
+
+struct CameraOptions {
+    std::optional<glm::vec3> position, focal_point, view_up;
+    std::optional<float> view_angle;
+    float azimuth = 0.0F;    ///< degrees about view_up, after the above
+    float elevation = 0.0F;  ///< degrees towards view_up
+    float zoom = 1.0F;       ///< divides the view angle
+};
+
+/// Common to render and bench: what is drawn, and how.
+struct PictureOptions {
+    std::filesystem::path input;
+    std::vector<std::string> overrides;  ///< -D
+    std::optional<glm::ivec2> size;
+    std::optional<std::string> machine;
+    std::optional<HalfVector> half_vector;
+    CameraOptions camera;
+    std::vector<Light> lights;  ///< instead of the scene's, if not empty
+    std::optional<glm::vec4> background;
+    int threads = 0;
+    std::string isa;
+    bool quiet = false;
+    bool verbose = false;
+};
+
+enum class StatsFormat { none, text, json };
+
+struct RenderOptions {
+    PictureOptions picture;
+    std::string output;  ///< empty: the input's stem + ".png"; "-": standard output
+    int samples = 1;     ///< per pixel: a square number
+    int turntable = 0;   ///< frames of one turn; 0: a single picture
+    StatsFormat stats = StatsFormat::none;
+};
+
+struct BenchOptions {
+    PictureOptions picture;
+    int frames = 50;
+    bool json = false;
+};
+
+struct InfoOptions {
+    bool json = false;
+};
+
+struct BakeBrushedOptions {
+    std::uint32_t seed = 1;
+    int size = 512;
+    std::filesystem::path output;  ///< a directory, or what the four names begin with
+};
+
+enum class Shape { sphere, knot, plane, cube };
+
+struct BakeMeshOptions {
+    Shape shape = Shape::sphere;
+    int columns = 64;  ///< of the grid; segments along the knot
+    int rows = 32;     ///< of the grid; sides of the knot
+    std::filesystem::path output;
+};
+
+/// Text that was asked for instead of work: --help or --version.
+struct PrintText {
+    std::string text;
+};
+
+using Command = std::variant<PrintText, RenderOptions, BenchOptions, InfoOptions,
+                             BakeBrushedOptions, BakeMeshOptions>;
+
+/// Throws Error{bad_option} for anything that is not a command of burnish.
+Command parse_command_line(int argc, const char* const* argv);
+
+}  // namespace burnish::app

@@ -1,0 +1,114 @@
+#include "app/picture.hpp"
+
+#include <fmt/format.h>
+
+#include <burnish/error.hpp>
+#include <cstdio>
+
+namespace burnish::app {
+namespace {
+
+bool is_scene(const std::filesystem::path& path) {
+    return path.extension() == ".toml";
+}
+
+LoadedScene load(const PictureOptions& options) {
+    if (!is_scene(options.input)) {
+        if (!options.overrides.empty())
+            throw Error(ErrorCode::bad_option,
+                        fmt::format("-D {}: {} is a mesh, expected a scene",
+                                    options.overrides.front(), options.input.string()));
+        return scene_for_mesh(options.input);
+    }
+    // The profile goes through the scene, whose other [machine] keys override parts of it.
+    std::vector<std::string> overrides = options.overrides;
+    if (options.machine) overrides.push_back("machine.profile=" + *options.machine);
+    return load_scene(options.input, overrides);
+}
+
+glm::vec3 rotated(const glm::vec3& v, const glm::vec3& axis, float degrees) {
+    return glm::mat3(placement(glm::vec3(0.0F), axis, degrees, 1.0F)) * v;
+}
+
+Camera raised(Camera camera, float degrees) {
+    const glm::vec3 arm = camera.position - camera.focal_point;
+    const glm::vec3 side = glm::cross(camera.view_up, arm);
+    camera.position = camera.focal_point + rotated(arm, side, -degrees);
+    camera.view_up = rotated(camera.view_up, side, -degrees);
+    return camera;
+}
+
+/// A bare mesh fills the picture, whatever its shape.
+void reframe(Scene& scene) {
+    const Mesh& mesh = std::get<Mesh>(scene.objects.front().geometry);
+    const float aspect = static_cast<float>(scene.width) / static_cast<float>(scene.height);
+    scene.camera = framing_camera(mesh.bounds(), aspect);
+}
+
+void apply_camera(const CameraOptions& options, Camera& camera) {
+    const bool moves = options.position || options.focal_point || options.view_up ||
+                       options.azimuth != 0.0F || options.elevation != 0.0F;
+    if (moves && camera.view)
+        throw Error(ErrorCode::bad_option,
+                    "--camera-... moves a camera that the scene gives as a view matrix");
+    if ((options.view_angle || options.zoom != 1.0F) && camera.projection)
+        throw Error(
+            ErrorCode::bad_option,
+            "--camera-view-angle or --camera-zoom with a scene that gives a projection matrix");
+    camera.position = options.position.value_or(camera.position);
+    camera.focal_point = options.focal_point.value_or(camera.focal_point);
+    camera.view_up = options.view_up.value_or(camera.view_up);
+    camera.view_angle = options.view_angle.value_or(camera.view_angle) / options.zoom;
+    if (options.azimuth != 0.0F) camera = turned(camera, options.azimuth);
+    if (options.elevation != 0.0F) camera = raised(camera, options.elevation);
+}
+
+}  // namespace
+
+Camera turned(const Camera& camera, float degrees) {
+    if (camera.view)
+        throw Error(ErrorCode::bad_option,
+                    "a turn about the focal point of a camera that is given as a view matrix");
+    Camera result = camera;
+    const glm::vec3 arm = camera.position - camera.focal_point;
+    result.position = camera.focal_point + rotated(arm, camera.view_up, degrees);
+    return result;
+}
+
+Scene load_picture(const PictureOptions& options) {
+    LoadedScene loaded = load(options);
+    if (!options.quiet) {
+        for (const std::string& note : loaded.notes) fmt::print(stderr, "burnish: {}\n", note);
+    }
+    Scene& scene = loaded.scene;
+    if (options.machine && !is_scene(options.input))
+        scene.machine = machine_profile(*options.machine);
+    if (options.half_vector) scene.machine.half_vector = *options.half_vector;
+    if (options.size) {
+        scene.width = options.size->x;
+        scene.height = options.size->y;
+        if (!is_scene(options.input)) reframe(scene);
+    }
+    if (!options.lights.empty()) scene.lights = options.lights;
+    scene.background = options.background.value_or(scene.background);
+    apply_camera(options.camera, scene.camera);
+    return std::move(loaded.scene);
+}
+
+Renderer make_renderer(const PictureOptions& options) {
+    RendererOptions renderer;
+    renderer.threads = options.threads;
+    renderer.isa = options.isa;
+    return Renderer(renderer);
+}
+
+FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target) {
+    try {
+        return renderer.render(scene, target);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::bad_option) throw;
+        throw Error(ErrorCode::bad_input, error.what());
+    }
+}
+
+}  // namespace burnish::app

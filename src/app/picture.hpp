@@ -1,0 +1,23 @@
+#pragma once
+
+#include <burnish/files.hpp>
+#include <burnish/renderer.hpp>
+
+#include "app/command_line.hpp"
+
+/// From options to something that can be drawn.
+namespace burnish::app {
+
+/// Reads the input and applies every option. Notes of the loader go to standard error.
+Scene load_picture(const PictureOptions& options);
+
+/// Throws Error{bad_option} for an ISA that is not there, before any file is read.
+Renderer make_renderer(const PictureOptions& options);
+
+/// Renders; what the scene cannot do counts as bad input, not as wrong usage.
+FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target);
+
+/// The camera turned about its focal point by `degrees` around its view-up direction.
+Camera turned(const Camera& camera, float degrees);
+
+}  // namespace burnish::app

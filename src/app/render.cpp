@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+#include <chrono>
+#include <cstdio>
+
+#include "app/output_name.hpp"
+#include "app/picture.hpp"
+#include "app/stats.hpp"
+#include "app/supersample.hpp"
+#include "app/verbs.hpp"
+
+namespace burnish::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string output_pattern(const RenderOptions& options) {
+    std::string pattern = options.output;
+    if (pattern.empty()) {
+        pattern = options.picture.input.stem().string();
+        pattern += options.turntable > 0 ? "-{frame:4}.png" : ".png";
+    }
+    if (options.turntable > 1 && !has_frame_number(pattern))
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("-o {} names one file, expected {{frame:4}} in it for --turntable",
+                                pattern));
+    return pattern;
+}
+
+int samples_side(int samples) {
+    int side = 1;
+    while (side * side < samples) ++side;
+    return side;
+}
+
+/// How far a turntable is, on a terminal, once it takes longer than a second.
+class Progress {
+  public:
+    explicit Progress(int total, bool quiet)
+        : m_total(total), m_shown(!quiet && total > 1 && isatty(STDERR_FILENO) != 0) {}
+    ~Progress() {
+        if (m_printed) fmt::print(stderr, "\r\x1b[K");
+    }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void done(int count) {
+        if (!m_shown || ms_since(m_start) < 1000.0) return;
+        constexpr int kWidth = 40;
+        const int filled = kWidth * count / m_total;
+        fmt::print(stderr, "\r[{:<{}}] {}/{}", std::string(static_cast<std::size_t>(filled), '#'),
+                   kWidth, count, m_total);
+        m_printed = true;
+    }
+
+  private:
+    int m_total;
+    bool m_shown;
+    bool m_printed = false;
+    Clock::time_point m_start = Clock::now();
+};
+
+/// The lines that tell what was done. They leave standard output to data when there is any.
+void report(const RenderOptions& options, const std::string& name, const Framebuffer& frame,
+            const FrameStats& stats, const Renderer& renderer, double frame_ms) {
+    const bool data_on_stdout = name == "-" || options.stats == StatsFormat::json;
+    std::FILE* stats_stream = name == "-" ? stderr : stdout;
+    if (options.stats == StatsFormat::json)
+        fmt::print(stats_stream, "{}\n", stats_json(stats, renderer, frame_ms));
+    if (!options.picture.quiet)
+        fmt::print(data_on_stdout ? stderr : stdout, "{}: {} x {}, {:.2f} ms, {}, {} thread{}\n",
+                   name == "-" ? "standard output" : name, frame.width(), frame.height(), frame_ms,
+                   renderer.isa(), renderer.threads(), renderer.threads() == 1 ? "" : "s");
+    if (options.stats == StatsFormat::text || options.picture.verbose)
+        fmt::print(data_on_stdout ? stderr : stats_stream, "{}",
+                   stats_text(stats, renderer, frame_ms));
+}
+
+}  // namespace
+
+void run(const RenderOptions& options) {
+    const std::string pattern = output_pattern(options);
+    numbered_name(pattern, 0);
+    Renderer renderer = make_renderer(options.picture);
+    const Scene scene = load_picture(options.picture);
+    const int side = samples_side(options.samples);
+    const int frames = options.turntable > 0 ? options.turntable : 1;
+    Framebuffer frame(scene.width, scene.height, scene.format);
+    Progress progress(frames, options.picture.quiet);
+    for (int i = 0; i < frames; ++i) {
+        Scene turn = scene;
+        if (i > 0)
+            turn.camera =
+                turned(scene.camera, 360.0F * static_cast<float>(i) / static_cast<float>(frames));
+        const Clock::time_point start = Clock::now();
+        const FrameStats stats = draw_supersampled(renderer, turn, side, frame);
+        const double frame_ms = ms_since(start);
+        const std::string name = numbered_name(pattern, i);
+        save_image(frame, name);
+        progress.done(i + 1);
+        if (i + 1 == frames) report(options, pattern, frame, stats, renderer, frame_ms);
+    }
+}
+
+}  // namespace burnish::app
