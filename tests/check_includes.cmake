@@ -50,7 +50,8 @@ rule("^src/" DENY "\"kernels/([^pskt]|simd)" "src/ sees the contract only")
 rule("^kernels/" DENY "^(<(burnish|glm|fmt)/|\"[^k])" "kernels see neither src/ nor GLM")
 
 # One direction: app -> pipeline -> raster, shade -> geometry -> image, mesh, machine -> core.
-rule("^src/app/" ALLOW "^(${std}|<(CLI|fmt|glm)/.*>|${public}|\"app/.*\")$" "public headers only")
+rule("^src/app/" DENY "\"(geometry|image|io|kernels|machine|mesh|pipeline|raster|scene|shade)[/.]"
+  "the command is a user of the library")
 rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|raster|scene|shade)[/.]"
   "core knows no stage")
 rule("^src/(image|mesh|machine|scene|models)/" DENY "\"(app|geometry|io|pipeline|raster|shade)[/.]"

@@ -1,13 +1,14 @@
-# cmake -DNM=<nm> -DOBJECTS=<a.o;b.o> -DALLOWED=<function>... -P check_kernel_symbols.cmake
+# cmake -DNM=<nm> -DOBJECTS=<a.o;b.o> [-DISA=<name>] -P check_kernel_symbols.cmake
 #
-# An object compiled for one instruction set must offer no function but its table: any other (a
-# template, an inline function of a header) could be the copy that the linker keeps for the whole
-# program, and an old CPU would then stop on it. ALLOWED is a list of names burnish::<name>() or
-# empty.
-set(accepted "")
-foreach(name IN LISTS ALLOWED)
-  list(APPEND accepted "burnish::${name}()")
-endforeach()
+# An object compiled for one instruction set must offer nothing but its table and what lies in the
+# namespace that xsimd has in this object alone: any other function (a template, an inline function
+# of a header) could be the copy that the linker keeps for the whole program, and an old CPU would
+# then stop on it. Without ISA nothing at all may be visible.
+cmake_minimum_required(VERSION 3.25)
+set(accepted "^$")
+if(ISA)
+  set(accepted "^(burnish::table_${ISA}\\(\\)$|xsimd_${ISA}::)")
+endif()
 
 set(foreign "")
 foreach(object IN LISTS OBJECTS)
@@ -15,12 +16,14 @@ foreach(object IN LISTS OBJECTS)
                   OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE "\n+" ";" lines "${lines}")
   foreach(line IN LISTS lines)
-    # value, type, demangled name
-    if(line MATCHES "^[0-9a-f]+ [A-Za-z] (.+)$" AND NOT CMAKE_MATCH_1 IN_LIST accepted)
-      string(APPEND foreign "  ${CMAKE_MATCH_1}\n")
+    if(line MATCHES "^[0-9a-f]+ [A-Za-z] (.+)$")  # value, type, name
+      set(name "${CMAKE_MATCH_1}")
+      if(NOT name MATCHES "${accepted}")
+        string(APPEND foreign "  ${name}\n")
+      endif()
     endif()
   endforeach()
 endforeach()
 if(foreign)
-  message(FATAL_ERROR "visible outside their object, expected only [${ALLOWED}]:\n${foreign}")
+  message(FATAL_ERROR "visible outside their object, expected names like ${accepted}:\n${foreign}")
 endif()

@@ -1,3 +1,5 @@
+# Tests of the project rather than of its code: headers, rules about sources, the package.
+#
 # Each public header and each contract header of the kernels compiles alone, and the contract leaves
 # no symbol in any object that includes it.
 function(burnish_compile_alone target)
@@ -19,6 +21,15 @@ target_link_libraries(test_public_headers PRIVATE burnish)
 burnish_compile_alone(test_contract_headers kernels/kernel_table.hpp kernels/packet.hpp
   kernels/packet_stages.hpp kernels/stage_list.hpp kernels/tile_stages.hpp)
 target_include_directories(test_contract_headers PRIVATE ${PROJECT_SOURCE_DIR})
-add_test(NAME kernel_symbols.contract_headers
-  COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} "-DOBJECTS=$<TARGET_OBJECTS:test_contract_headers>"
-    -DALLOWED= -P ${CMAKE_CURRENT_SOURCE_DIR}/check_kernel_symbols.cmake)
+burnish_test_symbols(test_contract_headers)
+
+# Rules about the sources, and the installed package.
+add_test(NAME includes COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_includes.cmake)
+add_test(NAME elementary_functions
+  COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_elementary_functions.cmake)
+add_test(NAME package
+  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
+    -DCOMPILER=${CMAKE_CXX_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DBINDIR=${CMAKE_INSTALL_BINDIR}
+    "-DFLAGS=$<$<BOOL:${BURNISH_SANITIZE}>:-fsanitize=${BURNISH_SANITIZE}>"
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/check_package.cmake)
+set_tests_properties(package PROPERTIES TIMEOUT 300)
