@@ -1,1 +1,439 @@
+#include "machine/bind.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace burnish {
+
+namespace {
+
+/// A value of the program: a constant, an input, or the output of a portion.
+using Value = int;
+constexpr Value kNothing = -1;
+
+using Components = std::array<Value, 4>;  // r, g, b, a
+
+struct OperandValues {
+    std::array<Value, 3> value{kNothing, kNothing, kNothing};
+    Mapping mapping = Mapping::unsigned_identity;
+};
+
+/// One portion on values instead of planes.
+struct Operation {
+    int stage = 0;
+    OperandValues a, b, c, d;
+    ProductKind ab = ProductKind::none, cd = ProductKind::none;
+    ThirdKind third = ThirdKind::none;
+    const Portion* source = nullptr;
+    int components = 1;
+    Value mux = kNothing;
+    std::array<Value, 3> ab_out{kNothing, kNothing, kNothing};
+    std::array<Value, 3> cd_out = ab_out, third_out = ab_out;
+};
+
+bool same_everywhere(const OperandValues& o) {
+    return o.value[0] == o.value[1] && o.value[1] == o.value[2];
+}
+
+ProductKind kind_of(Product p) {
+    return p == Product::dot ? ProductKind::dot : ProductKind::multiply;
+}
+
+/// Turns a program into operations on values, then values into planes.
+class Binder {
+  public:
+    Binder(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units)
+        : m_program(program), m_numbers(machine.numbers) {
+        m_one = m_numbers == NumberModel::nine_bit ? 255 : 16384;
+        for (auto& components : m_bound.input) components.fill(-1);
+        set_initial_registers(enabled_units);
+    }
+
+    BoundProgram bind() {
+        for (std::size_t s = 0; s < m_program.stages.size(); ++s) add_stage(static_cast<int>(s));
+        read_final();
+        drop_unread();
+        allocate();
+        return std::move(m_bound);
+    }
+
+  private:
+    // --- values
+
+    Value constant(int code) {
+        const auto [at, added] = m_constants.try_emplace(code, m_value_count);
+        if (added) ++m_value_count;
+        return at->second;
+    }
+    Value constant(float x) {
+        const float clamped = x > 0.0F ? std::min(x, 1.0F) : 0.0F;
+        return constant(static_cast<int>(std::floor(clamped * static_cast<float>(m_one) + 0.5F)));
+    }
+    Components constant(const glm::vec4& v) {
+        return {constant(v.r), constant(v.g), constant(v.b), constant(v.a)};
+    }
+
+    Components& at(Register r) { return m_registers[static_cast<std::size_t>(r)]; }
+
+    Components input(Register r) {
+        Components values;
+        for (Value& value : values) value = m_value_count++;
+        m_inputs.push_back({r, values});
+        return values;
+    }
+
+    void set_initial_registers(std::uint32_t enabled_units) {
+        const Value zero = constant(0), one = constant(m_one);
+        for (Components& components : m_registers) components.fill(zero);
+        at(Register::const0) = constant(m_program.const0);
+        at(Register::const1) = constant(m_program.const1);
+        at(Register::fog) = constant(m_program.fog);
+        at(Register::col0) = input(Register::col0);
+        at(Register::col1) = input(Register::col1);
+        for (int unit = 0; unit < 16; ++unit) {
+            const bool enabled = (enabled_units >> unit & 1) != 0;
+            at(tex(unit)) = enabled ? input(tex(unit)) : Components{zero, zero, zero, one};
+        }
+        at(Register::spare0)[3] = at(tex(0))[3];
+    }
+
+    // --- general stages
+
+    OperandValues read(const Input& input, bool alpha_portion) {
+        const Components& r = at(input.reg);
+        OperandValues o;
+        o.mapping = input.mapping;
+        if (input.component == Component::alpha || (alpha_portion && input.component == Component::rgb)) {
+            o.value.fill(r[3]);
+        } else if (input.component == Component::blue) {
+            o.value.fill(r[2]);
+        } else {
+            o.value = {r[0], r[1], r[2]};
+        }
+        return o;
+    }
+
+    /// One value per component; a single one where all are equal.
+    std::array<Value, 3> output(Register r, int components) {
+        std::array<Value, 3> out{kNothing, kNothing, kNothing};
+        if (r == Register::discard) return out;
+        for (int c = 0; c < 3; ++c) {
+            out[static_cast<std::size_t>(c)] = c < components ? m_value_count++ : out[0];
+        }
+        return out;
+    }
+
+    Operation operation(const Portion& p, bool alpha, int stage) {
+        Operation op;
+        op.stage = stage;
+        op.source = &p;
+        op.a = read(p.a, alpha);
+        op.b = read(p.b, alpha);
+        op.c = read(p.c, alpha);
+        op.d = read(p.d, alpha);
+        op.ab = kind_of(p.ab_product);
+        op.cd = kind_of(p.cd_product);
+        const bool uses_third = p.third_out != Register::discard;
+        if (uses_third) op.third = p.third == Third::mux ? ThirdKind::mux : ThirdKind::sum;
+        op.mux = at(Register::spare0)[3];
+        const bool ab_same = op.ab == ProductKind::dot || (same_everywhere(op.a) && same_everywhere(op.b));
+        const bool cd_same = op.cd == ProductKind::dot || (same_everywhere(op.c) && same_everywhere(op.d));
+        const bool ab_read = uses_third || p.ab_out != Register::discard;
+        const bool cd_read = uses_third || p.cd_out != Register::discard;
+        op.components = (ab_same || !ab_read) && (cd_same || !cd_read) ? 1 : 3;
+        op.ab_out = output(p.ab_out, op.components);
+        op.cd_out = output(p.cd_out, op.components);
+        op.third_out = output(p.third_out, op.components);
+        return op;
+    }
+
+    void write(const Operation& op, bool alpha) {
+        const auto set = [&](Register r, const std::array<Value, 3>& out) {
+            if (r == Register::discard) return;
+            if (alpha) {
+                at(r)[3] = out[0];
+            } else {
+                std::copy(out.begin(), out.end(), at(r).begin());
+            }
+        };
+        set(op.source->ab_out, op.ab_out);
+        set(op.source->cd_out, op.cd_out);
+        set(op.source->third_out, op.third_out);
+    }
+
+    void add_stage(int s) {
+        const GeneralStage& stage = m_program.stages[static_cast<std::size_t>(s)];
+        at(Register::const0) = constant(stage.const0.value_or(m_program.const0));
+        at(Register::const1) = constant(stage.const1.value_or(m_program.const1));
+        std::optional<Operation> rgb, alpha;
+        if (stage.rgb.writes()) rgb = operation(stage.rgb, false, s);
+        if (stage.alpha.writes()) alpha = operation(stage.alpha, true, s);
+        if (rgb) write(*rgb, false);
+        if (alpha) write(*alpha, true);
+        if (rgb) m_operations.push_back(*rgb);
+        if (alpha) m_operations.push_back(*alpha);
+    }
+
+    // --- final combiner: always the global constants
+
+    void read_final() {
+        at(Register::const0) = constant(m_program.const0);
+        at(Register::const1) = constant(m_program.const1);
+        const FinalCombiner& f = m_program.final_combiner;
+        const Input* inputs[6] = {&f.a, &f.b, &f.c, &f.d, &f.e, &f.f};
+        for (std::size_t i = 0; i < 6; ++i) {
+            m_final[i] = read(*inputs[i], false);
+            m_uses_sum |= inputs[i]->reg == Register::color_sum;
+            m_uses_product |= inputs[i]->reg == Register::final_product;
+        }
+        m_final[6] = read(f.g, true);
+        if (!m_uses_product) m_final[4] = m_final[5] = read({}, false);
+        const Components &spare0 = at(Register::spare0), &secondary = at(Register::col1);
+        m_sum[0].value = {spare0[0], spare0[1], spare0[2]};
+        m_sum[1].value = {secondary[0], secondary[1], secondary[2]};
+    }
+
+    // --- what is never read is not computed
+
+    template <class F>
+    static void for_each_read(const Operation& op, F&& f) {
+        const auto operand = [&](const OperandValues& o, ProductKind product) {
+            const int used = product == ProductKind::dot ? 3 : op.components;
+            for (int c = 0; c < used; ++c) f(o.value[static_cast<std::size_t>(c)]);
+        };
+        operand(op.a, op.ab);
+        operand(op.b, op.ab);
+        if (op.cd != ProductKind::none) {
+            operand(op.c, op.cd);
+            operand(op.d, op.cd);
+        }
+        if (op.third == ThirdKind::mux) f(op.mux);
+    }
+
+    template <class F>
+    void for_each_final_read(F&& f) const {
+        for (const OperandValues& o : m_final) {
+            for (const Value v : o.value) f(v);
+        }
+        if (!m_uses_sum) return;
+        for (const OperandValues& o : m_sum) {
+            for (const Value v : o.value) f(v);
+        }
+    }
+
+    void drop_unread() {
+        std::vector<bool> live(static_cast<std::size_t>(m_value_count), false);
+        const auto mark = [&](Value v) { live[static_cast<std::size_t>(v)] = true; };
+        const auto clean = [&](std::array<Value, 3>& out) {
+            bool any = false;
+            for (Value& v : out) {
+                if (v != kNothing && !live[static_cast<std::size_t>(v)]) v = kNothing;
+                any |= v != kNothing;
+            }
+            return any;
+        };
+        for_each_final_read(mark);
+        std::vector<Operation> kept;
+        for (auto op = m_operations.rbegin(); op != m_operations.rend(); ++op) {
+            const bool ab = clean(op->ab_out), cd = clean(op->cd_out), third = clean(op->third_out);
+            if (!ab && !cd && !third) continue;
+            if (!third) {
+                op->third = ThirdKind::none;
+                if (!cd) op->cd = ProductKind::none;
+                if (!ab) {  // a lone product is always AB
+                    op->a = op->c;
+                    op->b = op->d;
+                    op->ab = op->cd;
+                    op->ab_out = op->cd_out;
+                    op->cd = ProductKind::none;
+                    op->cd_out.fill(kNothing);
+                }
+            }
+            for_each_read(*op, mark);
+            kept.push_back(*op);
+        }
+        m_operations.assign(kept.rbegin(), kept.rend());
+    }
+
+    // --- planes
+
+    void allocate() {
+        m_plane.assign(static_cast<std::size_t>(m_value_count), -1);
+        m_last_use.assign(static_cast<std::size_t>(m_value_count), -1);
+        const int end = static_cast<int>(m_program.stages.size());
+        for (const Operation& op : m_operations) {
+            for_each_read(op, [&](Value v) { m_last_use[static_cast<std::size_t>(v)] = op.stage; });
+        }
+        for_each_final_read([&](Value v) { m_last_use[static_cast<std::size_t>(v)] = end; });
+        place_constants();
+        m_trash = m_bound.plane_count++;
+        place_inputs();
+        for (std::size_t i = 0; i < m_operations.size();) {
+            const int stage = m_operations[i].stage;
+            const std::size_t first = i;
+            for (; i < m_operations.size() && m_operations[i].stage == stage; ++i) {
+                emit(m_operations[i]);
+            }
+            for (std::size_t k = first; k < i; ++k) {
+                for_each_read(m_operations[k], [&](Value v) { release(v, stage); });
+            }
+        }
+        emit_final();
+        m_bound.numbers = m_numbers;
+    }
+
+    void place_constants() {
+        for (const auto& [code, value] : m_constants) {
+            if (m_last_use[static_cast<std::size_t>(value)] < 0) continue;
+            m_plane[static_cast<std::size_t>(value)] = m_bound.plane_count++;
+            m_bound.constants.push_back(static_cast<std::int16_t>(code));
+            m_last_use[static_cast<std::size_t>(value)] = static_cast<int>(m_program.stages.size()) + 1;
+        }
+    }
+
+    void place_inputs() {
+        for (const auto& [reg, values] : m_inputs) {
+            const auto read = [&](Value v) { return m_last_use[static_cast<std::size_t>(v)] >= 0; };
+            if (std::none_of(values.begin(), values.end(), read)) continue;
+            const bool texture = reg >= Register::tex0 && reg <= Register::tex15;
+            for (std::size_t c = 0; c < 4; ++c) {
+                if (!texture && !read(values[c])) continue;
+                const int plane = m_bound.plane_count++;
+                m_plane[static_cast<std::size_t>(values[c])] = plane;
+                m_bound.input[static_cast<std::size_t>(reg)][c] = plane;
+                if (!read(values[c])) m_unread.push_back(plane);
+            }
+        }
+        m_free = m_unread;
+    }
+
+    int take_plane() {
+        if (m_free.empty()) return m_bound.plane_count++;
+        const int plane = m_free.back();
+        m_free.pop_back();
+        return plane;
+    }
+
+    void release(Value v, int stage) {
+        int& last = m_last_use[static_cast<std::size_t>(v)];
+        if (last != stage) return;
+        m_free.push_back(m_plane[static_cast<std::size_t>(v)]);
+        last = -1;  // once, however often it was read
+    }
+
+    Operand operand(const OperandValues& o) const {
+        Operand result{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int plane = m_plane[static_cast<std::size_t>(o.value[c])];
+            result.plane[c] = static_cast<std::int16_t>(std::max(plane, 0));
+        }
+        result.mapping = static_cast<std::uint8_t>(o.mapping);
+        return result;
+    }
+
+    void place_outputs(const std::array<Value, 3>& out, std::int16_t (&planes)[3]) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            int plane = m_trash;
+            if (out[c] != kNothing) {
+                int& assigned = m_plane[static_cast<std::size_t>(out[c])];
+                if (assigned < 0) assigned = take_plane();
+                plane = assigned;
+            }
+            planes[c] = static_cast<std::int16_t>(plane);
+        }
+    }
+
+    void emit(const Operation& op) {
+        PortionCtx ctx{};
+        ctx.a = operand(op.a);
+        ctx.b = operand(op.b);
+        ctx.c = op.cd == ProductKind::none ? ctx.a : operand(op.c);
+        ctx.d = op.cd == ProductKind::none ? ctx.b : operand(op.d);
+        ctx.ab = op.ab;
+        ctx.cd = op.cd;
+        ctx.third = op.third;
+        ctx.scale = static_cast<OutputScale>(op.source->scale);
+        ctx.bias_minus_half = op.source->bias_minus_half ? 1 : 0;
+        ctx.wide = op.source->wide ? 1 : 0;
+        ctx.components = static_cast<std::uint8_t>(op.components);
+        const bool muxes = op.third == ThirdKind::mux;
+        ctx.mux_plane =
+            static_cast<std::int16_t>(muxes ? m_plane[static_cast<std::size_t>(op.mux)] : 0);
+        place_outputs(op.ab_out, ctx.ab_out);
+        place_outputs(op.cd_out, ctx.cd_out);
+        place_outputs(op.third_out, ctx.third_out);
+        m_bound.portions.push_back(ctx);
+    }
+
+    void emit_final() {
+        FinalCtx& ctx = m_bound.final_combiner;
+        const FinalCombiner& f = m_program.final_combiner;
+        const Input* inputs[6] = {&f.a, &f.b, &f.c, &f.d, &f.e, &f.f};
+        Operand* operands[6] = {&ctx.a, &ctx.b, &ctx.c, &ctx.d, &ctx.e, &ctx.f};
+        for (std::size_t i = 0; i < 6; ++i) {
+            *operands[i] = operand(m_final[i]);
+            if (inputs[i]->reg == Register::color_sum) operands[i]->plane[0] = FinalCtx::kColorSum;
+            if (inputs[i]->reg == Register::final_product) {
+                operands[i]->plane[0] = FinalCtx::kFinalProduct;
+            }
+        }
+        ctx.g = operand(m_final[6]);
+        const Operand spare0 = operand(m_sum[0]), secondary = operand(m_sum[1]);
+        std::copy(std::begin(spare0.plane), std::end(spare0.plane), ctx.spare0);
+        std::copy(std::begin(secondary.plane), std::end(secondary.plane), ctx.secondary);
+        ctx.clamp_color_sum = f.clamp_color_sum ? 1 : 0;
+        ctx.uses_color_sum = m_uses_sum ? 1 : 0;
+        ctx.uses_final_product = m_uses_product ? 1 : 0;
+        for (std::int16_t& plane : ctx.out) plane = static_cast<std::int16_t>(take_plane());
+    }
+
+    const CombinerProgram& m_program;
+    NumberModel m_numbers;
+    int m_one = 0;
+    std::array<Components, kRegisterCount> m_registers;
+    int m_value_count = 0;
+    std::map<int, Value> m_constants;  // by code
+    std::vector<std::pair<Register, Components>> m_inputs;
+    std::vector<Operation> m_operations;
+    std::array<OperandValues, 7> m_final;  // A .. G
+    std::array<OperandValues, 2> m_sum;    // spare0, col1
+    bool m_uses_sum = false, m_uses_product = false;
+    std::vector<int> m_plane, m_last_use;  // by value
+    std::vector<int> m_free, m_unread;
+    int m_trash = 0;
+    BoundProgram m_bound;
+};
+
+}  // namespace
+
+bool BoundProgram::reads(Register r) const {
+    const auto& planes = input[static_cast<std::size_t>(r)];
+    return std::any_of(planes.begin(), planes.end(), [](int plane) { return plane >= 0; });
+}
+
+BoundProgram bind(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units) {
+    program.validate(machine);
+    return Binder(program, machine, enabled_units).bind();
+}
+
+void load_constants(const BoundProgram& program, Packet& packet) {
+    std::int16_t* plane = packet.planes;
+    for (const std::int16_t code : program.constants) {
+        std::fill_n(plane, kPacketSize, code);
+        plane += kPacketSize;
+    }
+}
+
+void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet) {
+    if (program.numbers == NumberModel::nine_bit) {
+        for (const PortionCtx& portion : program.portions) kernels.portion_nine_bit(packet, portion);
+        kernels.final_nine_bit(packet, program.final_combiner);
+    } else {
+        for (const PortionCtx& portion : program.portions) kernels.portion_wide(packet, portion);
+        kernels.final_wide(packet, program.final_combiner);
+    }
+}
+
+}  // namespace burnish

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <burnish/combiner.hpp>
+#include <burnish/machine.hpp>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "kernels/kernel_table.hpp"
+
+namespace burnish {
+
+inline constexpr int kRegisterCount = static_cast<int>(Register::discard) + 1;
+
+/// A combiner program as a list of block operations on register planes.
+///
+/// Every value of the program has a plane of its own from the operation that writes it to the last
+/// one that reads it; so both portions of a stage read what was there before the stage, and no
+/// kernel writes a plane that it reads. Results that nothing reads are not computed, and a result
+/// that is the same in r, g and b is computed once.
+struct BoundProgram {
+    NumberModel numbers = NumberModel::wide;
+    /// Codes of planes 0 .. constants.size() - 1, the same in every fragment.
+    std::vector<std::int16_t> constants;
+    int plane_count = 0;
+    /// Plane that must hold component c of register r before the first operation, -1 where the
+    /// program never reads it: input[r][c]. The planes of a texture register are four in a row,
+    /// whichever of them are read.
+    std::array<std::array<int, 4>, kRegisterCount> input;
+    std::vector<PortionCtx> portions;
+    FinalCtx final_combiner{};  ///< its `out` planes hold the result
+
+    [[nodiscard]] bool reads(Register r) const;
+};
+
+/// @param enabled_units bit i: texture unit i delivers texels; others read (0, 0, 0, 1).
+/// Throws Error{bad_program} for what `machine` cannot run.
+BoundProgram bind(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units);
+
+/// Fills the constant planes of a packet; needed once per packet memory and program.
+void load_constants(const BoundProgram& program, Packet& packet);
+
+/// Runs the general stages and the final combiner.
+void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet);
+
+}  // namespace burnish
