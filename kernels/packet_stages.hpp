@@ -100,7 +100,7 @@ enum class OutputScale : std::uint8_t { one, two, four, half };
 /// a fragment before it writes any output, but output planes are never input planes.
 struct PortionCtx {
     Operand a, b, c, d;
-    ProductKind ab, cd;  ///< ab is never `none`
+    ProductKind ab, cd;  ///< ab is never `none`; cd is none only where third is, too
     ThirdKind third;
     OutputScale scale;
     std::uint8_t bias_minus_half;

@@ -1,0 +1,331 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "kernel_test.hpp"
+
+/// Vertices, coverage and depth, and the triangles of a block.
+namespace burnish {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// ---- transform
+
+struct Vertices {
+    AlignedVector<float> x, y, z;
+
+    Vertices(Random& random, int count, float reach) {
+        const auto padded = static_cast<std::size_t>((count + 15) / 16 * 16);
+        for (AlignedVector<float>* coordinate : {&x, &y, &z}) {
+            coordinate->resize(padded, kNan);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+                (*coordinate)[i] = random.real(-reach, reach);
+                if (random.chance(60))
+                    (*coordinate)[i] = random.pick(std::array{kNan, kInfinity, -kInfinity, 3e38F,
+                                                              -3e38F, 0.0F, -0.0F, 1e-42F});
+            }
+        }
+    }
+};
+
+/// A perspective matrix with a camera somewhere, or twelve random numbers.
+void random_matrix(Random& random, float (&m)[16]) {
+    for (float& x : m) x = random.real(-1.0F, 1.0F);
+    if (random.chance(3)) return;
+    for (float& x : m) x = 0.0F;
+    m[0] = random.real(0.5F, 2.0F);
+    m[5] = random.real(0.5F, 2.0F);
+    m[10] = -1.01F;
+    m[11] = -1.0F;
+    m[12] = random.real(-0.5F, 0.5F);
+    m[14] = random.real(0.0F, 5.0F);
+    m[15] = random.real(0.0F, 5.0F);
+}
+
+struct Transformed {
+    AlignedVector<ScreenVertex> screen;
+    AlignedVector<HomogeneousVertex> homogeneous;
+
+    Transformed()
+        : screen(80, ScreenVertex{-77, -78, -79.0F, 0xabcdU}),
+          homogeneous(80, HomogeneousVertex{-1.5F, -2.5F, -3.5F, -4.5F}) {}
+
+    void run(const KernelTable& table, TransformCtx ctx) {
+        ctx.screen = screen.data();
+        ctx.homogeneous = homogeneous.data();
+        table.transform(ctx);
+    }
+};
+
+TEST_P(KernelTest, TransformOfAnyVertices) {
+    for (unsigned seed = 0; seed < 4000; ++seed) {
+        Random random(seed);
+        const int count = random.between(1, 70);
+        const Vertices v(random, count, random.chance(4) ? 1e5F : 3.0F);
+        TransformCtx ctx{v.x.data(), v.y.data(), v.z.data(), count, {}, {}, nullptr, nullptr};
+        random_matrix(random, ctx.m);
+        const auto width = static_cast<float>(random.between(1, 16384));
+        const auto height = static_cast<float>(random.between(1, 16384));
+        const auto subpixels = static_cast<float>(16 << random.below(5));
+        ctx.viewport = {width / 2, height / 2, width,
+                        height,    subpixels,  random.chance(2) ? 0.5F : 0.0F};
+        Transformed got, want;
+        got.run(table(), ctx);
+        want.run(table_reference(), ctx);
+        for (std::size_t i = 0; i < got.screen.size(); ++i) {
+            const ScreenVertex& g = got.screen[i];
+            const ScreenVertex& w = want.screen[i];
+            const HomogeneousVertex& gh = got.homogeneous[i];
+            const HomogeneousVertex& wh = want.homogeneous[i];
+            ASSERT_TRUE(g.x == w.x && g.y == w.y && same_bits(g.z, w.z) && g.outcode == w.outcode)
+                << name("transform") << ", seed " << seed << ", vertex " << i << " of " << count
+                << ": got " << g.x << ' ' << g.y << ' ' << g.z << ' ' << g.outcode << ", want "
+                << w.x << ' ' << w.y << ' ' << w.z << ' ' << w.outcode;
+            ASSERT_TRUE(same_bits(gh.x, wh.x) && same_bits(gh.y, wh.y) && same_bits(gh.z, wh.z) &&
+                        same_bits(gh.w, wh.w))
+                << name("transform") << ", seed " << seed << ", homogeneous vertex " << i << " of "
+                << count << ": got " << gh.x << ' ' << gh.y << ' ' << gh.z << ' ' << gh.w
+                << ", want " << wh.x << ' ' << wh.y << ' ' << wh.z << ' ' << wh.w;
+        }
+    }
+}
+
+// ---- rasterize
+
+struct Point {
+    int x, y;  ///< 1/256 pixel from the tile's corner
+};
+
+std::int64_t floor_256(std::int64_t x) {
+    return x >> 8;
+}
+
+/// Adds the edge from p to q (inside to its left in a y-down window, where the area is positive).
+/// False if the tile has no pixel inside. Edges that all of the tile is inside of are dropped.
+bool add_edge(TileTriangle& t, const Point& p, const Point& q) {
+    const std::int64_t a = p.y - q.y;
+    const std::int64_t b = q.x - p.x;
+    const bool top_left = a > 0 || (a == 0 && b > 0);
+    const std::int64_t exact = a * (128 - p.x) + b * (128 - p.y) - (top_left ? 0 : 1);
+    const std::int64_t c = floor_256(exact);
+    const auto corner = [&](int x, int y) { return a * x + b * y + c; };
+    const auto corners = {corner(0, 0), corner(63, 0), corner(0, 63), corner(63, 63)};
+    if (std::max(corners) < 0) return false;
+    if (std::min(corners) >= 0) return true;
+    t.a[t.edges] = static_cast<std::int32_t>(a);
+    t.b[t.edges] = static_cast<std::int32_t>(b);
+    t.c[t.edges] = static_cast<std::int32_t>(c);
+    ++t.edges;
+    return true;
+}
+
+/// Tile pixels from `low` to `high` (1/256 pixel) whose centres may lie between.
+bool pixel_range(int low, int high, std::int32_t& first, std::int32_t& last) {
+    first = std::max(0, (low - 128 + 255) >> 8);
+    last = std::min(kTileSize - 1, (high - 128) >> 8);
+    return first <= last;
+}
+
+/// Coverage of a triangle in the tile; nothing if it misses or has no area.
+std::optional<TileTriangle> tile_triangle(Point p, Point q, Point r) {
+    const std::int64_t area =
+        std::int64_t{q.x - p.x} * (r.y - p.y) - std::int64_t{r.x - p.x} * (q.y - p.y);
+    if (area == 0) return {};
+    if (area < 0) std::swap(q, r);
+    TileTriangle t{};
+    if (!pixel_range(std::min({p.x, q.x, r.x}), std::max({p.x, q.x, r.x}), t.x0, t.x1) ||
+        !pixel_range(std::min({p.y, q.y, r.y}), std::max({p.y, q.y, r.y}), t.y0, t.y1))
+        return {};
+    if (!add_edge(t, p, q) || !add_edge(t, q, r) || !add_edge(t, r, p)) return {};
+    return t;
+}
+
+Point random_point(Random& random) {
+    switch (random.below(4)) {
+        case 0:  // on pixel centres, where the fill rule decides
+            return {random.between(-4, 68) * 256 + 128, random.between(-4, 68) * 256 + 128};
+        case 1:  // anywhere in the guard band
+            return {random.between(-8192 * 256, 24575 * 256),
+                    random.between(-8192 * 256, 24575 * 256)};
+        default:
+            return {random.between(-20 * 256, 84 * 256), random.between(-20 * 256, 84 * 256)};
+    }
+}
+
+void set_depth(TileTriangle& t, Random& random) {
+    t.offset_x = random.between(-16384, 16384);
+    t.offset_y = random.between(-16384, 16384);
+    if (random.chance(3)) {  // level, and often equal to others
+        t.z = static_cast<float>(random.between(0, 4)) * 0.25F;
+        t.z_low = t.z_high = t.z;
+        return;
+    }
+    t.zx = random.real(-0.01F, 0.01F);
+    t.zy = random.real(-0.01F, 0.01F);
+    t.z = 0.5F - static_cast<float>(t.offset_x + 32) * t.zx -
+          static_cast<float>(t.offset_y + 32) * t.zy;
+    t.z_low = random.real(0.0F, 0.6F);
+    t.z_high = random.real(t.z_low, 1.0F);
+}
+
+std::vector<TileTriangle> random_triangles(Random& random, int wanted) {
+    std::vector<TileTriangle> triangles;
+    const int tests = random.below(9);  // the last: each its own
+    const bool writes = !random.chance(5);
+    while (static_cast<int>(triangles.size()) < wanted) {
+        auto t = tile_triangle(random_point(random), random_point(random), random_point(random));
+        if (!t) continue;
+        set_depth(*t, random);
+        const int pass = tests == 8 ? random.below(8) : tests;
+        t->pass_less = static_cast<std::uint8_t>(pass & 1);
+        t->pass_equal = static_cast<std::uint8_t>(pass >> 1 & 1);
+        t->pass_greater = static_cast<std::uint8_t>(pass >> 2);
+        t->depth_write = static_cast<std::uint8_t>(tests == 8 ? random.below(2) : writes ? 1 : 0);
+        t->id = static_cast<std::uint32_t>(triangles.size()) * 3 + 1;
+        triangles.push_back(*t);
+    }
+    return triangles;
+}
+
+struct Tile {
+    AlignedVector<float> depth;
+    AlignedVector<std::uint32_t> id;
+    AlignedVector<float> block_far;
+
+    /// Cleared, or with levels from which triangles differ little; bounds exact or loose.
+    explicit Tile(Random& random)
+        : depth(kTilePixels, 1.0F), id(kTilePixels, kNoTriangle), block_far(kTileBlocks, 1.0F) {
+        if (random.chance(2)) return;
+        for (float& d : depth) d = static_cast<float>(random.between(0, 8)) * 0.125F;
+        for (int block = 0; block < kTileBlocks; ++block) {
+            const float* first = depth.data() + block * kBlockPixels;
+            block_far[static_cast<std::size_t>(block)] =
+                *std::max_element(first, first + kBlockPixels) + (random.chance(2) ? 0.5F : 0.0F);
+        }
+    }
+    void run(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
+        table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
+                         id.data(), block_far.data()});
+    }
+};
+
+void expect_same(const Tile& got, const Tile& want, const std::string& where) {
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+        ASSERT_EQ(got.id[i], want.id[i]) << where << ", pixel " << i;
+        ASSERT_TRUE(same_bits(got.depth[i], want.depth[i]))
+            << where << ", pixel " << i << ": got " << got.depth[i] << ", want " << want.depth[i];
+        ASSERT_GE(got.block_far[i / kBlockPixels], got.depth[i])
+            << where << ", pixel " << i << ": beyond its block's bound";
+    }
+}
+
+TEST_P(KernelTest, RasterizeOfRandomTriangles) {
+    for (unsigned seed = 0; seed < 3000; ++seed) {
+        Random random(seed);
+        const std::vector<TileTriangle> triangles = random_triangles(random, random.between(1, 12));
+        Tile got(random);
+        Tile want = got;
+        got.run(table(), triangles);
+        want.run(table_reference(), triangles);
+        ASSERT_NO_FATAL_FAILURE(
+            expect_same(got, want, name("rasterize") + ", seed " + std::to_string(seed)));
+    }
+}
+
+TEST_P(KernelTest, RasterizeOneByOneEqualsAllAtOnce) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        Random random(seed);
+        const std::vector<TileTriangle> triangles = random_triangles(random, 30);
+        Tile got(random);
+        Tile want = got;
+        for (const TileTriangle& t : triangles) got.run(table(), {t});
+        want.run(table_reference(), triangles);
+        ASSERT_NO_FATAL_FAILURE(
+            expect_same(got, want, name("rasterize") + ", seed " + std::to_string(seed)));
+    }
+}
+
+// Slivers and points: all triangles with corners on a 3 x 3 grid of half pixels around a block
+// edge.
+TEST_P(KernelTest, RasterizeOfSmallTriangles) {
+    std::vector<Point> grid;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) grid.push_back({7 * 256 + 128 * x, 55 * 256 + 128 * y});
+    for (const Point& p : grid) {
+        for (const Point& q : grid) {
+            for (const Point& r : grid) {
+                auto t = tile_triangle(p, q, r);
+                if (!t) continue;
+                t->z = t->z_low = t->z_high = 0.5F;
+                t->pass_less = t->depth_write = 1;
+                Random random(0);
+                Tile got(random);
+                Tile want = got;
+                got.run(table(), {*t});
+                want.run(table_reference(), {*t});
+                ASSERT_NO_FATAL_FAILURE(expect_same(got, want, name("rasterize")))
+                    << p.x << ' ' << p.y << ' ' << q.x << ' ' << q.y << ' ' << r.x << ' ' << r.y;
+            }
+        }
+    }
+}
+
+TEST_P(KernelTest, WholeTileInFrontLowersEveryBound) {
+    Random random(0);
+    Tile tile(random);
+    TileTriangle t{};
+    t.x1 = t.y1 = kTileSize - 1;
+    t.z = t.z_low = t.z_high = 0.25F;
+    t.pass_less = t.depth_write = 1;
+    std::fill(tile.block_far.begin(), tile.block_far.end(), 1.0F);
+    std::fill(tile.depth.begin(), tile.depth.end(), 1.0F);
+    tile.run(table(), {t});
+    for (const float bound : tile.block_far) EXPECT_EQ(bound, 0.25F) << name("rasterize");
+    for (const std::uint32_t id : tile.id) ASSERT_EQ(id, 0U) << name("rasterize");
+}
+
+// ---- match
+
+void check_match(const KernelTable& table, const std::array<std::uint32_t, kBlockPixels>& ids,
+                 unsigned seed) {
+    AlignedVector<std::uint32_t> block(ids.begin(), ids.end());
+    BlockTriangles got{};
+    BlockTriangles want{};
+    table.match({block.data(), &got});
+    table_reference().match({block.data(), &want});
+    ASSERT_EQ(got.count, want.count) << table.isa << " match, seed " << seed;
+    for (int k = 0; k < want.count; ++k) {
+        ASSERT_EQ(got.id[k], want.id[k]) << table.isa << " match, seed " << seed << ", slot " << k;
+        ASSERT_EQ(got.mask[k], want.mask[k])
+            << table.isa << " match, seed " << seed << ", slot " << k;
+    }
+}
+
+TEST_P(KernelTest, MatchOfRandomBlocks) {
+    for (unsigned seed = 0; seed < 3000; ++seed) {
+        Random random(seed);
+        const int kinds = random.pick(std::array{1, 2, 3, 5, 17, 64, 1000});
+        const int empty = random.pick(std::array{1, 2, 10, 1000000});
+        std::array<std::uint32_t, kBlockPixels> ids{};
+        for (std::uint32_t& id : ids)
+            id = random.chance(empty)
+                     ? kNoTriangle
+                     : static_cast<std::uint32_t>(random.below(kinds)) * 0x01010101U;
+        ASSERT_NO_FATAL_FAILURE(check_match(table(), ids, seed));
+    }
+}
+
+TEST_P(KernelTest, MatchOfSixtyFourTriangles) {
+    std::array<std::uint32_t, kBlockPixels> ids{};
+    for (std::uint32_t i = 0; i < kBlockPixels; ++i) ids[i] = 0xfffffffeU - i;
+    check_match(table(), ids, 0);
+}
+
+}  // namespace
+}  // namespace burnish

@@ -1,0 +1,163 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kernel_test.hpp"
+
+/// From triangles to register planes: interpolation, lighting vectors, encoding.
+namespace burnish {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// Runs that share out `count` fragments, each with its own planes and reference pixel.
+struct Runs {
+    std::vector<AttributePlane> planes;
+    std::vector<Run> runs;
+
+    Runs(Random& random, int count, int attributes, int longest) {
+        for (int first = 0; first < count;) {
+            const int length = std::min(count - first, random.between(1, longest));
+            runs.push_back({nullptr, first, length, random.between(-8192, 24576),
+                            random.between(-8192, 24576)});
+            first += length;
+        }
+        const std::size_t stride = static_cast<std::size_t>(attributes) + 1;
+        planes.resize(runs.size() * stride);
+        for (AttributePlane& p : planes) {
+            p = {random.real(-2.0F, 2.0F), random.real(-0.1F, 0.1F), random.real(-0.1F, 0.1F)};
+            if (random.chance(20)) p = {0.0F, 0.0F, 0.0F};
+        }
+        for (std::size_t r = 0; r < runs.size(); ++r) runs[r].planes = planes.data() + r * stride;
+    }
+
+    [[nodiscard]] AttributesCtx context(int attributes) const {
+        return {runs.data(), static_cast<int>(runs.size()), attributes};
+    }
+};
+
+Written attribute_range(int first, int count) {
+    Written written;
+    for (int k = 0; k < count; ++k) written.attributes.push_back(first + k);
+    return written;
+}
+
+TEST_P(KernelTest, AttributesOfRandomRuns) {
+    for (int seed = 0; seed < 1500; ++seed) {
+        Random random(static_cast<unsigned>(seed));
+        PacketMemory packet;
+        packet.count = random.chance(3) ? kPacketSize : random.between(1, kPacketSize);
+        if (random.chance(2)) packet.shuffle_pixels(random);
+        const int attributes = random.between(1, 20);
+        const Runs runs(random, packet.count, attributes, random.chance(2) ? 9 : 200);
+        ASSERT_EQ(stage_difference(table(), &KernelTable::attributes, packet,
+                                   runs.context(attributes), attribute_range(0, attributes)),
+                  "")
+            << name("attributes") << ", seed " << seed;
+    }
+}
+
+// A run may begin and end anywhere; the last of three shows what the others may have overwritten.
+TEST_P(KernelTest, AttributesOfRunsOfEveryStartAndLength) {
+    Random random(7);
+    for (int start = 0; start <= 36; ++start) {
+        for (int length = 1; length <= 70; ++length) {
+            PacketMemory packet;
+            packet.count = std::min(kPacketSize, start + length + random.between(0, 3));
+            Runs runs(random, packet.count, 2, kPacketSize);
+            std::vector<AttributePlane> planes(9);
+            for (AttributePlane& p : planes)
+                p = {random.real(0.5F, 1.0F), random.real(0.0F, 0.1F), random.real(0.0F, 0.1F)};
+            runs.runs.clear();
+            if (start > 0) runs.runs.push_back({planes.data(), 0, start, 3, 5});
+            runs.runs.push_back({planes.data() + 3, start, length, -17, 900});
+            if (packet.count > start + length)
+                runs.runs.push_back(
+                    {planes.data() + 6, start + length, packet.count - start - length, 64, -64});
+            ASSERT_EQ(stage_difference(table(), &KernelTable::attributes, packet, runs.context(2),
+                                       attribute_range(0, 2)),
+                      "")
+                << name("attributes") << ", run of " << length << " from " << start;
+        }
+    }
+}
+
+TEST_P(KernelTest, LightingOfRandomFrames) {
+    for (int seed = 0; seed < 1500; ++seed) {
+        Random random(static_cast<unsigned>(seed));
+        PacketMemory packet;
+        packet.count = random.chance(3) ? kPacketSize : random.between(1, kPacketSize);
+        LightingCtx ctx{};
+        ctx.frame = random.below(4);
+        for (int i = 0; i < 3; ++i) {
+            ctx.light[i] = random.real(-10.0F, 10.0F);
+            ctx.eye[i] = random.real(-10.0F, 10.0F);
+        }
+        ctx.light_w = random.chance(2) ? 1.0F : 0.0F;
+        ctx.half_vector = random.chance(3) ? -1 : 17;
+        ctx.light_vector = random.chance(3) ? -1 : 20;
+        ctx.view_vector = random.chance(3) ? -1 : 23;
+        ctx.n_dot_l = random.chance(3) ? -1 : 26;
+        for (int k = 0; k < 12; ++k) {
+            for (int i = 0; i < packet.count; ++i)
+                packet.attribute(ctx.frame + k)[i] = random.real(-1.5F, 1.5F);
+        }
+        // Zero frames, huge ones, and an eye or a light in the surface: 0 / 0 and overflow.
+        for (int i = 0; i < packet.count; i += 1 + random.below(50)) {
+            const float value = random.pick(std::array{0.0F, 1e20F, kInfinity, kNan, 1e-30F});
+            packet.attribute(ctx.frame + random.below(12))[i] = value;
+            for (int c = 0; c < 3 && random.chance(2); ++c)
+                packet.attribute(ctx.frame + 9 + c)[i] =
+                    random.chance(2) ? ctx.eye[c] : ctx.light[c];
+        }
+        Written written;
+        for (const int first : {ctx.half_vector, ctx.light_vector, ctx.view_vector})
+            for (int c = 0; c < 3 && first >= 0; ++c) written.attributes.push_back(first + c);
+        if (ctx.n_dot_l >= 0) written.attributes.push_back(ctx.n_dot_l);
+        ASSERT_EQ(stage_difference(table(), &KernelTable::lighting, packet, ctx, written), "")
+            << name("lighting") << ", seed " << seed;
+    }
+}
+
+using EncodeStage = void (*KernelTable::*)(Packet&, const EncodeCtx&) noexcept;
+
+void check_encode(const KernelTable& table, EncodeStage stage, const std::vector<float>& values) {
+    for (std::size_t first = 0; first < values.size(); first += kPacketSize) {
+        PacketMemory packet;
+        packet.count = static_cast<int>(std::min<std::size_t>(kPacketSize, values.size() - first));
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), packet.count,
+                    packet.attribute(3));
+        ASSERT_EQ(stage_difference(table, stage, packet, EncodeCtx{3, 11}, {.planes = {11}}), "")
+            << table.isa << " encode, values from " << values[first];
+    }
+}
+
+/// The border below every code with its neighbours, and everything that is not in [0, 1].
+std::vector<float> borders(int one) {
+    std::vector<float> values{kNan,    -kNan, kInfinity, -kInfinity, -0.0F,  0.0F, 1e-45F,
+                              -1e-45F, 3e38F, -3e38F,    1e10F,      -1e10F, 2.0F, -1.0F};
+    for (int code = -2; code <= one + 2; ++code) {
+        const auto border = (static_cast<float>(code) - 0.5F) / static_cast<float>(one);
+        const float below = std::nextafter(border, -kInfinity);
+        const float above = std::nextafter(border, kInfinity);
+        values.insert(values.end(), {border, below, above, std::nextafter(below, -kInfinity),
+                                     std::nextafter(above, kInfinity),
+                                     static_cast<float>(code) / static_cast<float>(one)});
+    }
+    return values;
+}
+
+TEST_P(KernelTest, NineBitEncodeAroundEveryBorder) {
+    check_encode(table(), &KernelTable::encode_nine_bit, borders(255));
+}
+
+TEST_P(KernelTest, WideEncodeAroundEveryBorder) {
+    check_encode(table(), &KernelTable::encode_wide, borders(16384));
+}
+
+}  // namespace
+}  // namespace burnish
