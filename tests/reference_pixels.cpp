@@ -1,0 +1,297 @@
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include "kernel_test.hpp"
+
+/// Numbers worked out by hand for everything around the combiners, for every table: vertices,
+/// coverage, depth, interpolation, texels, pixels.
+namespace burnish {
+namespace {
+
+class ReferencePixels : public KernelTest {};
+INSTANTIATE_TEST_SUITE_P(Isa, ReferencePixels, every_table(), isa_name);
+
+int tile_pixel(int x, int y) {
+    return (y / 8 * 8 + x / 8) * 64 + y % 8 * 8 + x % 8;
+}
+
+ScreenVertex transformed(const KernelTable& table, float x, float y, float z, float w,
+                         float snap_bias) {
+    AlignedVector<float> xs(16, x), ys(16, y), zs(16, z);
+    ScreenVertex screen{};
+    HomogeneousVertex homogeneous{};
+    // 100 x 50 pixels, 1/16 pixel grid; w is a constant of the matrix.
+    table.transform({xs.data(),
+                     ys.data(),
+                     zs.data(),
+                     1,
+                     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, w},
+                     {50, 25, 100, 50, 16, snap_bias},
+                     &screen,
+                     &homogeneous});
+    return screen;
+}
+
+TEST_P(ReferencePixels, VerticesSnapToTheGrid) {
+    // x = (0.0149 / 2 + 1) * 50 = 50.3725 pixels = 805.96 steps; y = 25 (1 - 0.25) = 18.75 = 300.
+    const ScreenVertex nearest = transformed(table(), 0.0149F, 0.5F, 1.0F, 2.0F, 0.5F);
+    EXPECT_EQ(nearest.x, 806 * 16);
+    EXPECT_EQ(nearest.y, 300 * 16);
+    EXPECT_EQ(nearest.z, 0.75F);
+    EXPECT_EQ(nearest.outcode, 0U);
+    EXPECT_EQ(transformed(table(), 0.0149F, 0.5F, 1.0F, 2.0F, 0.0F).x, 805 * 16);
+    // Downwards, not towards zero: x = -0.5 pixels - 0.3 steps = -8.3 steps.
+    EXPECT_EQ(transformed(table(), -1.010375F, 0.0F, 0.0F, 1.0F, 0.0F).x, -9 * 16);
+}
+
+TEST_P(ReferencePixels, OutcodesOfVertices) {
+    const auto outcode = [&](float x, float y, float z, float w) {
+        return transformed(table(), x, y, z, w, 0.5F).outcode;
+    };
+    EXPECT_EQ(outcode(-1.5F, 0, 0, 1), Outcode::left);
+    EXPECT_EQ(outcode(1.5F, -1.5F, 0, 1), Outcode::right | Outcode::below);
+    EXPECT_EQ(outcode(0, 1.5F, -1.5F, 1), Outcode::above | Outcode::near);
+    EXPECT_EQ(outcode(0, 0, 1.5F, 1), Outcode::far);
+    EXPECT_EQ(outcode(1000, 0, 0, 1), Outcode::right | Outcode::guard);
+    EXPECT_EQ(outcode(0, 0, 0, 0), Outcode::guard);
+    EXPECT_EQ(outcode(3e38F, 0, 0, 1), Outcode::nonfinite);
+}
+
+TileTriangle flat(float z) {
+    TileTriangle t{};
+    t.x1 = t.y1 = kTileSize - 1;
+    t.z = z;
+    t.z_high = 1.0F;
+    t.pass_less = t.depth_write = 1;
+    t.id = 1;
+    return t;
+}
+
+void set_edge(TileTriangle& t, int a, int b, int c) {
+    t.a[t.edges] = a;
+    t.b[t.edges] = b;
+    t.c[t.edges] = c;
+    ++t.edges;
+}
+
+struct Tile {
+    AlignedVector<float> depth = AlignedVector<float>(kTilePixels, 1.0F);
+    AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels, kNoTriangle);
+    AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
+
+    void draw(const KernelTable& table, const TileTriangle& t) {
+        table.rasterize({&t, 1, depth.data(), id.data(), block_far.data()});
+    }
+    [[nodiscard]] std::uint32_t at(int x, int y) const {
+        return id[static_cast<std::size_t>(tile_pixel(x, y))];
+    }
+};
+
+// The square (0, 0) .. (4, 4) cut from (4, 0) to (0, 4). Pixel centres on the cut belong to the
+// lower right half, whose left edge it is: 6 + 10 pixels.
+TEST_P(ReferencePixels, TopLeftRuleSharesTheDiagonal) {
+    TileTriangle upper = flat(0.5F);
+    set_edge(upper, 1024, 0, 512);        // x > 0
+    set_edge(upper, 0, 1024, 512);        // y > 0
+    set_edge(upper, -1024, -1024, 3071);  // x + y < 4
+    upper.x1 = upper.y1 = 3;
+    TileTriangle lower = flat(0.5F);
+    set_edge(lower, 1024, 1024, -3072);  // x + y >= 4
+    set_edge(lower, -1024, 0, 3583);     // x < 4
+    set_edge(lower, 0, -1024, 3583);     // y < 4
+    lower.x1 = lower.y1 = 3;
+    lower.id = 2;
+    for (const bool upper_first : {true, false}) {
+        Tile tile;
+        tile.draw(table(), upper_first ? upper : lower);
+        tile.draw(table(), upper_first ? lower : upper);
+        for (int y = 0; y < 5; ++y) {
+            for (int x = 0; x < 5; ++x) {
+                const std::uint32_t wanted = x > 3 || y > 3 ? kNoTriangle : x + y < 3 ? 1 : 2;
+                EXPECT_EQ(tile.at(x, y), wanted) << x << ", " << y;
+            }
+        }
+    }
+}
+
+TEST_P(ReferencePixels, DepthIsOneExpressionClampedToTheTriangle) {
+    TileTriangle t = flat(0.25F);
+    t.zx = 1.0F / 64;
+    t.zy = 1.0F / 128;
+    t.offset_x = 10;
+    t.offset_y = -3;
+    t.z_low = 0.375F;
+    t.z_high = 0.5F;
+    Tile tile;
+    tile.draw(table(), t);
+    const auto depth = [&](int x, int y) {
+        return tile.depth[static_cast<std::size_t>(tile_pixel(x, y))];
+    };
+    EXPECT_EQ(depth(2, 5), 0.453125F);  // 0.25 + 12 / 64 + 2 / 128
+    EXPECT_EQ(depth(63, 63), 0.5F);
+    EXPECT_EQ(depth(0, 0), 0.3828125F);
+    t.offset_x = 0;
+    Tile near;
+    near.draw(table(), t);
+    EXPECT_EQ(near.depth[0], 0.375F);
+}
+
+TEST_P(ReferencePixels, DepthTestsAndWrites) {
+    for (int pass = 0; pass < 8; ++pass) {
+        const std::array<float, 3> depths{0.25F, 0.5F, 0.75F};  // less, equal, greater than 0.5
+        for (std::size_t k = 0; k < 3; ++k) {
+            Tile tile;
+            std::fill(tile.depth.begin(), tile.depth.end(), 0.5F);
+            std::fill(tile.block_far.begin(), tile.block_far.end(), 0.5F);
+            TileTriangle t = flat(depths[k]);
+            t.pass_less = pass & 1;
+            t.pass_equal = pass >> 1 & 1;
+            t.pass_greater = static_cast<std::uint8_t>(pass >> 2);
+            t.depth_write = k == 0 ? 0 : 1;
+            tile.draw(table(), t);
+            const bool passes = (pass >> k & 1) != 0;
+            EXPECT_EQ(tile.at(5, 9), passes ? 1 : kNoTriangle) << "pass bits " << pass;
+            EXPECT_EQ(tile.depth[0], passes && k != 0 ? depths[k] : 0.5F) << "pass bits " << pass;
+        }
+    }
+}
+
+TEST_P(ReferencePixels, TrianglesOfABlockInOrderOfAppearance) {
+    AlignedVector<std::uint32_t> id(kBlockPixels, kNoTriangle);
+    id[3] = id[63] = 9;
+    id[4] = 2;
+    BlockTriangles out{};
+    table().match({id.data(), &out});
+    ASSERT_EQ(out.count, 2);
+    EXPECT_EQ(out.id[0], 9U);
+    EXPECT_EQ(out.mask[0], (std::uint64_t{1} << 63) | 8U);
+    EXPECT_EQ(out.id[1], 2U);
+    EXPECT_EQ(out.mask[1], 16U);
+}
+
+TEST_P(ReferencePixels, AttributesAreDividedByTheInterpolatedOneOverW) {
+    // Tile pixel (9, 2) is pixel (1, 12) from the reference pixel.
+    const std::array<AttributePlane, 3> planes{
+        {{1.0F, 1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.25F, 0.0F, 0.5F}}};
+    const burnish::Run run{planes.data(), 0, 1, -8, 10};
+    PacketMemory packet;
+    packet.count = 1;
+    packet.pixels[0] = static_cast<std::uint16_t>(tile_pixel(9, 2));
+    Packet view = packet.view();
+    table().attributes(view, {&run, 1, 2});
+    EXPECT_EQ(packet.attribute(0)[0], 0.5F);    // 1 / (1 + 1)
+    EXPECT_EQ(packet.attribute(1)[0], 3.125F);  // (0.25 + 6) / 2
+}
+
+TEST_P(ReferencePixels, LightingInTheFrameOfTheSurface) {
+    PacketMemory packet;
+    packet.count = 1;
+    const std::array<float, 12> frame{1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 6, 7};
+    for (int k = 0; k < 12; ++k) packet.attribute(k)[0] = frame[static_cast<std::size_t>(k)];
+    // Light (3, 0, 4) away: (0.6, 0, 0.8). Eye straight above.
+    LightingCtx ctx{0, {8, 6, 11}, 1.0F, {5, 6, 9}, -1, 12, 15, 18};
+    Packet view = packet.view();
+    table().lighting(view, ctx);
+    EXPECT_FLOAT_EQ(packet.attribute(12)[0], 0.8F);
+    EXPECT_FLOAT_EQ(packet.attribute(13)[0], 0.5F);
+    EXPECT_FLOAT_EQ(packet.attribute(14)[0], 0.9F);
+    EXPECT_EQ(packet.attribute(15)[0], 0.5F);
+    EXPECT_EQ(packet.attribute(17)[0], 1.0F);
+    EXPECT_FLOAT_EQ(packet.attribute(18)[0], 0.8F);
+    // A directional light is no position; from below the surface it gives no light.
+    ctx = {0, {0, 0, -2}, 0.0F, {5, 6, 9}, -1, -1, -1, 18};
+    table().lighting(view, ctx);
+    EXPECT_EQ(packet.attribute(18)[0], 0.0F);
+}
+
+struct Addressed {
+    std::int32_t texel;
+    int weight;
+};
+
+Addressed addressed(const KernelTable& table, float u, AddressMode mode, bool linear) {
+    PacketMemory packet;
+    packet.count = 1;
+    std::fill_n(packet.attribute(0), kFragmentGroup, u);
+    std::fill_n(packet.attribute(1), kFragmentGroup, 0.5F);
+    Packet view = packet.view();
+    table.address(view, {0, 1, -1, 4, 1, 20, mode, AddressMode::clamp_to_edge,
+                         static_cast<std::uint8_t>(linear ? 1 : 0)});
+    return {packet.top[0] / 4, packet.weight_x[0]};
+}
+
+TEST_P(ReferencePixels, AddressesInARowOfFourTexels) {
+    const auto expect = [&](float u, AddressMode mode, bool linear, int texel, int weight) {
+        const Addressed a = addressed(table(), u, mode, linear);
+        EXPECT_EQ(a.texel, texel) << "u " << u;
+        EXPECT_EQ(a.weight, weight) << "u " << u;
+    };
+    expect(0.375F, AddressMode::repeat, true, 1, 0);  // the centre of texel 1
+    expect(0.4375F, AddressMode::repeat, true, 1, 64);
+    expect(0.0F, AddressMode::repeat, true, 3, 128);
+    expect(0.0F, AddressMode::clamp_to_edge, true, 0, 0);
+    expect(1.0F, AddressMode::clamp_to_edge, true, 3, 128);
+    expect(1.0F, AddressMode::clamp_to_edge, false, 3, 0);
+    expect(-0.125F, AddressMode::repeat, false, 3, 0);
+    expect(0.4375F, AddressMode::repeat, false, 1, 0);
+}
+
+TEST_P(ReferencePixels, FilterRoundsAcrossThenDown) {
+    // Channels: corners (0, 1; 0, 0), (0, 255; 0, 255), white, and 128 everywhere; all weights 1/2.
+    const std::array<std::int8_t, 16> texels{-128, -128, 127, 0, -127, 127, 127, 0,
+                                             -128, -128, 127, 0, -128, 127, 127, 0};
+    PacketMemory packet;
+    std::fill(packet.top.begin(), packet.top.end(), 0);
+    std::fill(packet.bottom.begin(), packet.bottom.end(), 8);
+    std::fill(packet.weight_x.begin(), packet.weight_x.end(), std::int16_t{128});
+    packet.weight_y = packet.weight_x;
+    packet.count = 1;
+    Packet view = packet.view();
+    table().fetch_nine_bit(view, {texels.data(), 0});
+    // 1/4 comes out as 1: 1/2 rounds up across, then again down. 127.5 rounds up.
+    const std::array<int, 4> nine_bit{1, 128, 255, 128};
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(packet.plane(c)[0], nine_bit[static_cast<std::size_t>(c)]) << "channel " << c;
+    table().fetch_wide(view, {texels.data(), 0});
+    // 1/4 * 16384 / 255 = 16.06, 16384 / 2, 16384, 128 * 16384 / 255 = 8224.25
+    const std::array<int, 4> wide{16, 8192, 16384, 8224};
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(packet.plane(c)[0], wide[static_cast<std::size_t>(c)]) << "channel " << c;
+}
+
+TEST_P(ReferencePixels, PixelsInThreeFormats) {
+    PacketMemory packet;
+    packet.count = 1;
+    packet.pixels[0] = 7;
+    const std::array<int, 4> codes{0, 1, 128, 255};
+    const std::array<int, 4> wide_codes{0, 8192, 33, 16384};
+    for (int c = 0; c < 4; ++c) {
+        packet.plane(c)[0] = static_cast<std::int16_t>(codes[static_cast<std::size_t>(c)]);
+        packet.plane(4 + c)[0] = static_cast<std::int16_t>(wide_codes[static_cast<std::size_t>(c)]);
+    }
+    AlignedVector<std::uint8_t> bytes(std::size_t{4} * kTilePixels);
+    AlignedVector<std::uint16_t> words(std::size_t{4} * kTilePixels);
+    AlignedVector<float> floats(std::size_t{4} * kTilePixels);
+    Packet view = packet.view();
+    const auto expect = [&](const std::array<int, 4>& byte, const std::array<int, 4>& word,
+                            const std::array<float, 4>& real) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            EXPECT_EQ(int{bytes[28 + c]}, byte[c]);
+            EXPECT_EQ(int{words[28 + c]}, word[c]);
+            EXPECT_EQ(floats[28 + c], real[c]);
+        }
+    };
+    table().store_nine_bit(view, {{0, 1, 2, 3}, StoreFormat::rgba8, bytes.data()});
+    table().store_nine_bit(view, {{0, 1, 2, 3}, StoreFormat::rgba16, words.data()});
+    table().store_nine_bit(view, {{0, 1, 2, 3}, StoreFormat::rgba32f, floats.data()});
+    expect(codes, {0, 257, 32896, 65535}, {0.0F, 1.0F / 255, 128.0F / 255, 1.0F});
+    table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba8, bytes.data()});
+    table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba16, words.data()});
+    table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba32f, floats.data()});
+    // 127.5 and 32767.5 round up; 33 is 0.514 of a byte and 131.998 of a word.
+    expect({0, 128, 1, 255}, {0, 32768, 132, 65535}, {0.0F, 0.5F, 33.0F / 16384, 1.0F});
+}
+
+}  // namespace
+}  // namespace burnish
