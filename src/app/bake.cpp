@@ -19,20 +19,6 @@ std::filesystem::path map_path(const std::filesystem::path& output, const std::s
     return output.parent_path() / (output.filename().string() + "-" + name + ".png");
 }
 
-MeshData make_shape(const BakeMeshOptions& options) {
-    switch (options.shape) {
-        case Shape::sphere:
-            return shapes::sphere(options.columns, options.rows);
-        case Shape::knot:
-            return shapes::torus_knot(options.columns, options.rows);
-        case Shape::plane:
-            return shapes::plane(options.columns, options.rows);
-        case Shape::cube:
-            break;
-    }
-    return shapes::cube();
-}
-
 }  // namespace
 
 void run(const BakeBrushedOptions& options) {
@@ -46,7 +32,7 @@ void run(const BakeBrushedOptions& options) {
 }
 
 void run(const BakeMeshOptions& options) {
-    const MeshData mesh = make_shape(options);
+    const MeshData mesh = shapes::named(options.shape, options.columns, options.rows);
     save_mesh(mesh, options.output);
     fmt::print("{}: {} vertices, {} triangles\n", options.output.string(), mesh.positions.size(),
                mesh.indices.size() / 3);

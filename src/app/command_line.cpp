@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/framebuffer.hpp>
+#include <burnish/shapes.hpp>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <memory>
 
 #include "core/nearest.hpp"
 
@@ -199,15 +199,10 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
 }
 
 void add_bake_mesh(CLI::App& verb, BakeMeshOptions& options) {
-    static const std::map<std::string, Shape> kShapes{{"sphere", Shape::sphere},
-                                                      {"knot", Shape::knot},
-                                                      {"plane", Shape::plane},
-                                                      {"cube", Shape::cube}};
     verb.add_option_function<std::string>(
             "SHAPE",
             [&options](const std::string& word) {
-                options.shape =
-                    kShapes.at(known_word("shape", word, {"sphere", "knot", "plane", "cube"}));
+                options.shape = known_word("shape", word, shapes::names());
             },
             "sphere, knot, plane or cube")
         ->required()

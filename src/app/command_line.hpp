@@ -62,10 +62,8 @@ struct BakeBrushedOptions {
     std::filesystem::path output;  ///< a directory, or what the four names begin with
 };
 
-enum class Shape { sphere, knot, plane, cube };
-
 struct BakeMeshOptions {
-    Shape shape = Shape::sphere;
+    std::string shape;
     int columns = 64;  ///< of the grid; segments along the knot
     int rows = 32;     ///< of the grid; sides of the knot
     std::filesystem::path output;

@@ -25,6 +25,9 @@ std::filesystem::path temporary_name(const std::filesystem::path& target) {
 AtomicFile::AtomicFile(std::filesystem::path target)
     : m_target(std::move(target)), m_temporary(temporary_name(m_target)) {
     std::error_code ignored;
+    const std::filesystem::path parent = m_target.parent_path();
+    if (!parent.empty() && !std::filesystem::is_directory(parent, ignored))
+        throw Error(ErrorCode::io, m_target.string() + ": there is no such directory to write to");
     if (std::filesystem::is_directory(m_target, ignored))
         throw Error(ErrorCode::io,
                     m_target.string() + ": is a directory, expected a file to write");

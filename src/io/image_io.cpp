@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "io/atomic_file.hpp"
+#include "io/png_check.hpp"
 
 namespace burnish {
 namespace {
@@ -150,6 +151,7 @@ void write_source(const Source& source, const std::filesystem::path& path) {
 
 Image8 read_image_file(const std::filesystem::path& path) {
     require_readable_file(path);
+    require_sound_png(path);
     const std::string name = path.string();
     const OIIO::ImageSpec config = keep_alpha_apart();
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);

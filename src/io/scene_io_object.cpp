@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <burnish/error.hpp>
+#include <burnish/shapes.hpp>
 #include <utility>
 
 #include "core/nearest.hpp"
@@ -103,10 +105,28 @@ RawVertices read_vertices(const Section& section) {
     return raw;
 }
 
+/// A mesh made by formula instead of read.
+Mesh make_shape(const Section& section) {
+    constexpr int kMostColumns = 2048;
+    const std::string name = section.required_text("shape");
+    const int columns = section.integer("columns", 1, kMostColumns).value_or(64);
+    const int rows = section.integer("rows", 1, kMostColumns).value_or(32);
+    const std::vector<std::string_view> known = shapes::names();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        section.fail_unknown_word("shape", name, known);
+    try {
+        MeshData data = shapes::named(name, columns, rows);
+        if (const auto repeat = section.numbers("uv_repeat", 2, 2, kPositive)) {
+            for (glm::vec2& uv : data.uvs) uv *= glm::vec2((*repeat)[0], (*repeat)[1]);
+        }
+        return Mesh(data);
+    } catch (const Error& error) {
+        section.fail("shape", fmt::format("'shape' in {}: {}", section.label(), error.what()));
+    }
+}
+
 Mesh read_mesh(const Section& section, const std::filesystem::path& directory,
                std::vector<std::string>& notes) {
-    section.refuse_without("space", "vertices");
-    section.refuse_without("primitive", "vertices");
     const std::filesystem::path file = directory / section.required_text("mesh");
     try {
         LoadedMesh loaded = read_mesh_file(file);
@@ -142,6 +162,20 @@ NamedMaterial find_material(const Section& section, const MaterialTable& materia
     return found->second;
 }
 
+void require_one_geometry(const Section& section) {
+    const int sources = static_cast<int>(section.has("mesh")) +
+                        static_cast<int>(section.has("shape")) +
+                        static_cast<int>(section.has("vertices"));
+    if (sources != 1)
+        section.fail("mesh",
+                     fmt::format("{} has {} of 'mesh', 'shape' and 'vertices', expected one",
+                                 section.label(), sources));
+    for (const std::string_view key : {"space", "primitive"})
+        section.refuse_without(key, "vertices");
+    for (const std::string_view key : {"columns", "rows", "uv_repeat"})
+        section.refuse_without(key, "shape");
+}
+
 }  // namespace
 
 std::vector<Object> read_objects(const Section& root, const MaterialTable& materials,
@@ -149,12 +183,11 @@ std::vector<Object> read_objects(const Section& root, const MaterialTable& mater
                                  std::vector<std::string>& notes) {
     std::vector<Object> objects;
     for (const toml::table* table : root.tables("objects")) {
-        const Section section(
-            *table, "[[objects]]",
-            {"mesh", "material", "translate", "rotate", "scale", "space", "primitive", "vertices",
-             "depth_test", "depth_write", "cull", "blend"});
-        if (section.has("mesh") == section.has("vertices"))
-            section.fail("mesh", "[[objects]] needs one of 'mesh' and 'vertices'");
+        const Section section(*table, "[[objects]]",
+                              {"mesh", "shape", "columns", "rows", "uv_repeat", "material",
+                               "translate", "rotate", "scale", "space", "primitive", "vertices",
+                               "depth_test", "depth_write", "cull", "blend"});
+        require_one_geometry(section);
         Object object;
         object.raster = read_raster(section);
         object.world_from_object = read_placement(section);
@@ -163,7 +196,8 @@ std::vector<Object> read_objects(const Section& root, const MaterialTable& mater
             object.geometry = read_vertices(section);
             object.material = raw_material(section, named);
         } else {
-            object.geometry = read_mesh(section, directory, notes);
+            object.geometry =
+                section.has("shape") ? make_shape(section) : read_mesh(section, directory, notes);
             object.material = named.material;
         }
         objects.push_back(std::move(object));

@@ -238,6 +238,7 @@ BrushedMaps brushed_maps(std::uint32_t seed, int size) {
             store_vector(maps.tangent, x, y, t, m / alpha_x);
             store_vector(maps.bitangent, x, y, cross(n, t), m / alpha_y);
             const double ks = 0.82 + 0.18 * shine.at(x, y);
+            maps.tangent.at(x, y)[3] = unsigned_code(ks);
             std::uint8_t* specular = maps.specular.at(x, y);
             // Steel is a trace warmer than grey.
             specular[0] = unsigned_code(ks);

@@ -16,12 +16,12 @@ namespace burnish {
 /// Vectors are in tangent space, +Y up (towards smaller rows), coded clamp(floor(127.5 x + 128), 0,
 /// 255), alpha 255. The tangent and bitangent maps hold t * map_scale / alpha_x and
 /// b * map_scale / alpha_y with t and b perpendicular to the texel's normal, so that they can shade
-/// without the normal map.
+/// without the normal map. The tangent map's alpha is the grey ks.
 struct BrushedMaps {
     Image8 normal;
     Image8 tangent;
     Image8 bitangent;
-    Image8 specular;         ///< rgb: tinted ks; alpha: the same without the tint
+    Image8 specular;         ///< rgb: tinted ks; alpha: grey ks
     float map_scale = 0.0F;  ///< 1, 1/2, 1/4 or 1/8: the largest that no map exceeds 1 with
 };
 

@@ -2,6 +2,8 @@
 
 #include <burnish/mesh.hpp>
 #include <glm/glm.hpp>
+#include <string_view>
+#include <vector>
 
 /// Meshes made by formula, with exact normals, uvs and tangents. Their bits are the same on every
 /// machine. Winding is counter-clockwise seen from outside, every bitangent sign is +1, and
@@ -37,5 +39,12 @@ MeshData plane(int columns, int rows);
 /// Cube of side 1 about the origin, 12 triangles, 24 vertices; each side carries uv from (0, 0) to
 /// (1, 1), upright on the four sides around y.
 MeshData cube();
+
+/// What `named` knows: "sphere", "knot", "plane", "cube".
+std::vector<std::string_view> names();
+
+/// The shape with that name: `columns` and `rows` of its grid, segments and sides of the knot,
+/// neither for the cube. Throws Error{bad_option} for another name.
+MeshData named(std::string_view name, int columns, int rows);
 
 }  // namespace burnish::shapes

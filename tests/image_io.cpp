@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "tests/scratch_directory.hpp"
+
+namespace burnish {
+namespace {
+
+/// Every byte different from its neighbours, alpha unrelated to the colours.
+Image8 busy_image(int width, int height) {
+    Image8 image(width, height);
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        image.rgba[i] = static_cast<std::uint8_t>((i * 2654435761U) >> 13);
+    return image;
+}
+
+/// A binary PGM or PPM, whose bytes are simple enough to write by hand.
+void write_netpbm(const std::filesystem::path& path, int channels, int width, int height,
+                  const std::vector<std::uint8_t>& bytes) {
+    std::ofstream file(path, std::ios::binary);
+    file << (channels == 1 ? "P5" : "P6") << '\n' << width << ' ' << height << "\n255\n";
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+}
+
+ErrorCode error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        return error.code();
+    }
+    ADD_FAILURE() << "no error";
+    return ErrorCode::bad_option;
+}
+
+class ImageFiles : public ScratchDirectory {};
+
+TEST_F(ImageFiles, EightBitsSurviveWithTheirAlpha) {
+    const Image8 image = busy_image(37, 23);
+    for (const char* name : {"a.png", "a.tif", "a.tga"}) {
+        save_image(image, path(name));
+        const Image8 back = load_image(path(name));
+        EXPECT_EQ(back.width, 37) << name;
+        EXPECT_EQ(back.height, 23) << name;
+        EXPECT_EQ(back.rgba, image.rgba) << name;
+    }
+}
+
+TEST_F(ImageFiles, GreyIsSpreadAndMissingAlphaIsOpaque) {
+    write_netpbm(path("grey.pgm"), 1, 2, 1, {7, 200});
+    EXPECT_EQ(load_image(path("grey.pgm")).rgba,
+              (std::vector<std::uint8_t>{7, 7, 7, 255, 200, 200, 200, 255}));
+    write_netpbm(path("rgb.ppm"), 3, 2, 1, {1, 2, 3, 40, 50, 60});
+    EXPECT_EQ(load_image(path("rgb.ppm")).rgba,
+              (std::vector<std::uint8_t>{1, 2, 3, 255, 40, 50, 60, 255}));
+}
+
+TEST_F(ImageFiles, FramesKeepTheirRowsWhateverThePitch) {
+    constexpr int kWidth = 5;
+    constexpr int kHeight = 4;
+    constexpr std::ptrdiff_t kPitch = 4 * kWidth + 12;
+    std::vector<std::uint8_t> memory(kPitch * kHeight, 0xee);
+    const Image8 image = busy_image(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        std::memcpy(memory.data() + y * kPitch, image.at(0, y), std::size_t{4} * kWidth);
+    save_image(Framebuffer(memory.data(), kPitch, kWidth, kHeight), path("frame.png"));
+    EXPECT_EQ(load_image(path("frame.png")).rgba, image.rgba);
+}
+
+TEST_F(ImageFiles, SixteenBitFramesReachTheFileAsSixteenBits) {
+    Framebuffer frame(1, 1, PixelFormat::rgba16);
+    const std::uint16_t texel[4]{0, 257 * 100, 65535, 257 * 9};
+    std::memcpy(frame.row(0), texel, sizeof texel);
+    save_image(frame, path("deep.png"));
+    EXPECT_EQ(load_image(path("deep.png")).rgba, (std::vector<std::uint8_t>{0, 100, 255, 9}));
+    const std::string bytes = read(path("deep.png"));
+    ASSERT_GT(bytes.size(), 24U);
+    EXPECT_EQ(bytes[24], 16);  // bit depth in the PNG header
+}
+
+TEST_F(ImageFiles, FloatFramesReachEXR) {
+    Framebuffer frame(1, 1, PixelFormat::rgba32f);
+    const float texel[4]{0.0F, 0.5F, 3.0F, 1.0F};
+    std::memcpy(frame.row(0), texel, sizeof texel);
+    save_image(frame, path("float.exr"));
+    // Reading as 8 bits clamps: 0.5 * 255 rounds to 128.
+    EXPECT_EQ(load_image(path("float.exr")).rgba, (std::vector<std::uint8_t>{0, 128, 255, 255}));
+}
+
+TEST_F(ImageFiles, TruncatedFilesAreErrorsInEveryFormat) {
+    const Image8 image = busy_image(64, 64);
+    for (const char* name : {"t.png", "t.jpg", "t.tif", "t.exr", "t.bmp", "t.tga"}) {
+        save_image(image, path(name));
+        const std::string whole = read(path(name));
+        write(path(name), whole.substr(0, whole.size() / 2));
+        EXPECT_EQ(error_of([&] { load_image(path(name)); }), ErrorCode::bad_input) << name;
+    }
+}
+
+TEST_F(ImageFiles, ADamagedPNGIsAnErrorAndPrintsNothing) {
+    save_image(busy_image(64, 64), path("d.png"));
+    const std::string whole = read(path("d.png"));
+    for (std::size_t at = 9; at < whole.size(); at += 97) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+        write(path("d.png"), damaged);
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(error_of([&] { load_image(path("d.png")); }), ErrorCode::bad_input) << at;
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << at;
+    }
+}
+
+TEST_F(ImageFiles, WhatIsNoImageIsAnError) {
+    write(path("empty.png"), "");
+    EXPECT_EQ(error_of([&] { load_image(path("empty.png")); }), ErrorCode::bad_input);
+    write(path("text.png"), "this is no image\n");
+    EXPECT_EQ(error_of([&] { load_image(path("text.png")); }), ErrorCode::bad_input);
+    EXPECT_EQ(error_of([&] { load_image(path("missing.png")); }), ErrorCode::io);
+    EXPECT_EQ(error_of([&] { load_image(directory()); }), ErrorCode::io);
+}
+
+TEST_F(ImageFiles, HugeSizesAreRefusedBeforeMemoryIsTaken) {
+    std::ofstream(path("huge.ppm"), std::ios::binary) << "P6\n100000 100000\n255\n";
+    EXPECT_EQ(error_of([&] { load_image(path("huge.ppm")); }), ErrorCode::limit);
+}
+
+TEST_F(ImageFiles, FailedWritesLeaveNothingBehind) {
+    const Image8 image = busy_image(8, 8);
+    std::filesystem::create_directory(path("taken.png"));
+    EXPECT_EQ(error_of([&] { save_image(image, path("taken.png")); }), ErrorCode::io);
+    EXPECT_EQ(error_of([&] { save_image(image, path("no/such/place.png")); }), ErrorCode::io);
+    EXPECT_EQ(error_of([&] { save_image(image, path("what.xyz")); }), ErrorCode::io);
+    EXPECT_EQ(entries(), (std::vector<std::string>{"taken.png"}));
+}
+
+TEST_F(ImageFiles, AFailedWriteKeepsTheOldFile) {
+    const Image8 image = busy_image(8, 8);
+    save_image(image, path("kept.png"));
+    Image8 broken = image;
+    broken.rgba.pop_back();
+    EXPECT_EQ(error_of([&] { save_image(broken, path("kept.png")); }), ErrorCode::bad_option);
+    EXPECT_EQ(load_image(path("kept.png")).rgba, image.rgba);
+    EXPECT_EQ(entries(), (std::vector<std::string>{"kept.png"}));
+}
+
+TEST_F(ImageFiles, ThreadsMayReadAndWriteTheSameNames) {
+    const Image8 image = busy_image(32, 32);
+    save_image(image, path("shared.png"));
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+        threads.emplace_back([&] {
+            for (int k = 0; k < 20; ++k) {
+                save_image(image, path("shared.png"));
+                EXPECT_EQ(load_image(path("shared.png")).rgba, image.rgba);
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(entries(), (std::vector<std::string>{"shared.png"}));
+}
+
+}  // namespace
+}  // namespace burnish

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+/// A test with a directory of its own that is gone afterwards.
+class ScratchDirectory : public testing::Test {
+  protected:
+    ScratchDirectory() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "burnish-XXXXXX").string();
+        if (mkdtemp(pattern.data()) != nullptr) m_directory = pattern;
+    }
+    ~ScratchDirectory() override {
+        std::error_code ignored;
+        if (!m_directory.empty()) std::filesystem::remove_all(m_directory, ignored);
+    }
+
+    void SetUp() override { ASSERT_FALSE(m_directory.empty()); }
+
+    const std::filesystem::path& directory() const { return m_directory; }
+    std::filesystem::path path(const std::string& name) const { return m_directory / name; }
+
+    static std::string read(const std::filesystem::path& file) {
+        std::ifstream stream(file, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    }
+    static void write(const std::filesystem::path& file, const std::string& bytes) {
+        std::ofstream(file, std::ios::binary) << bytes;
+    }
+
+    /// Names of what lies in the directory, hidden files included, sorted.
+    std::vector<std::string> entries() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(m_directory))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+  private:
+    std::filesystem::path m_directory;
+};
+
+}  // namespace burnish
