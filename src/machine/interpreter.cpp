@@ -193,9 +193,9 @@ Codes run_final(const FinalCombiner& final, RegisterFile& registers, const Numbe
 
 int color_code(float x, NumberModel model) {
     const int one = numbers_of(model).one;
-    const double code = std::floor(static_cast<double>(x) * one + 0.5);
-    if (!(code > 0.0)) return 0;
-    return code < one ? static_cast<int>(code) : one;
+    const float code = std::floor(x * static_cast<float>(one) + 0.5F);
+    if (!(code > 0.0F)) return 0;
+    return code < static_cast<float>(one) ? static_cast<int>(code) : one;
 }
 
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,

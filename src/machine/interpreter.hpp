@@ -21,8 +21,8 @@ struct RegisterFile {
     const Codes& operator[](Register r) const { return codes[static_cast<std::size_t>(r)]; }
 };
 
-/// Code of a constant or an interpolated colour x: floor(one * x + 1/2), clamped to 0 .. one.
-/// NaN gives 0.
+/// Code of a constant or an interpolated colour x: floor(x * one + 1/2) in single precision,
+/// clamped to 0 .. one, as the stages encode_nine_bit and encode_wide have it. NaN gives 0.
 int color_code(float x, NumberModel numbers);
 
 /// What the final combiner delivers, 0 .. 255 or 0 .. 16384.
