@@ -101,17 +101,17 @@ PlyProperty parse_property(LineWords& line, std::string_view element) {
 
 /// Every element takes some bytes, so that a count beyond the file is found before it is believed.
 void check_counts(const MeshText& file, const PlyHeader& header) {
+    const bool ascii = header.format == PlyFormat::ascii;
     const std::uint64_t left = file.bytes.size() - header.body_offset;
     for (const PlyElement& element : header.elements) {
         std::uint64_t least = 0;
         for (const PlyProperty& property : element.properties) {
             constexpr std::size_t kDigitAndBlank = 2;
-            least += header.format == PlyFormat::ascii
-                         ? kDigitAndBlank
-                         : ply_size(property.is_list ? property.count_type : property.type);
+            least += ascii ? kDigitAndBlank
+                           : ply_size(property.is_list ? property.count_type : property.type);
         }
         // The last value of an ASCII file may lack its blank.
-        if (least != 0 && element.count > (left + 1) / least)
+        if (least != 0 && element.count > (left + (ascii ? 1 : 0)) / least)
             mesh_error(file, element.line,
                        fmt::format("{} elements '{}', but only {} bytes follow the header",
                                    element.count, element.name, left));

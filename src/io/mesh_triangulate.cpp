@@ -25,8 +25,9 @@ double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Ear clipping: M. Meisters, "Polygons have ears", 1975. Works on a polygon that runs
-/// counter-clockwise; one that crosses itself is cut into as many triangles, somehow.
+/// Ear clipping: G. Meisters, "Polygons have ears", 1975. Works on a polygon that runs
+/// counter-clockwise; one that crosses itself is cut into as many triangles, somehow, in time that
+/// grows with the square of its corners.
 class EarClipper {
   public:
     explicit EarClipper(std::span<const glm::dvec2> points) : m_points(points) {}
@@ -34,14 +35,15 @@ class EarClipper {
     /// Corner numbers, three per triangle, points.size() - 2 triangles.
     std::span<const std::uint32_t> clip() {
         const auto count = static_cast<std::uint32_t>(m_points.size());
-        m_triangles.clear();
+        // A simple polygon takes half a test per pair of corners, and some for corners in vain.
+        m_tests_left = std::size_t{4} * count * count;
         m_ring.resize(count);
         std::iota(m_ring.begin(), m_ring.end(), 0U);
         while (m_ring.size() > 3) {
             const std::size_t ear = find_ear();
             add(ear);
             m_ring.erase(m_ring.begin() + static_cast<std::ptrdiff_t>(ear));
-            // Going on two corners further spreads the cuts instead of fanning from one corner.
+            // Going on behind the cut spreads the cuts instead of fanning from one corner.
             m_start = ear + 1;
         }
         add(1);
@@ -55,20 +57,21 @@ class EarClipper {
         m_triangles.insert(m_triangles.end(), {at(i + m_ring.size() - 1), at(i), at(i + 1)});
     }
 
-    [[nodiscard]] std::size_t find_ear() const {
-        for (std::size_t k = 0; k < m_ring.size(); ++k) {
+    [[nodiscard]] std::size_t find_ear() {
+        for (std::size_t k = 0; k < m_ring.size() && m_tests_left > m_ring.size(); ++k) {
             const std::size_t i = (m_start + k) % m_ring.size();
             if (is_ear(i)) return i;
         }
         return m_start % m_ring.size();
     }
 
-    [[nodiscard]] bool is_ear(std::size_t i) const {
+    [[nodiscard]] bool is_ear(std::size_t i) {
         const std::uint32_t before = at(i + m_ring.size() - 1), here = at(i), after = at(i + 1);
         const glm::dvec2 &a = m_points[before], &b = m_points[here], &c = m_points[after];
         if (!(turn(a, b, c) > 0.0)) return false;
         return std::none_of(m_ring.begin(), m_ring.end(), [&](std::uint32_t other) {
             const glm::dvec2& p = m_points[other];
+            --m_tests_left;
             if (p == a || p == b || p == c) return false;
             return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
         });
@@ -78,6 +81,7 @@ class EarClipper {
     std::vector<std::uint32_t> m_ring;
     std::vector<std::uint32_t> m_triangles;
     std::size_t m_start = 1;
+    std::size_t m_tests_left = 0;
 };
 
 class Triangulator {
