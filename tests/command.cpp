@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <burnish/files.hpp>
@@ -150,7 +151,7 @@ TEST_F(Command, UnwritableOutputIsCodeThreeAndLeavesNothing) {
     expect_failure("bake mesh cube -o no/such/cube.ply", 3, "cube.ply");
     expect_failure("bake brushed --size 4 -o no/such/steel", 3, "steel");
     if (std::filesystem::exists("/dev/full")) {
-        const Result full = run("info >/dev/full; test $? = 3");
+        const Result full = run("info >/dev/full 2>/dev/null; test $? = 3");
         EXPECT_EQ(full.code, 0) << full.err;
     }
 }
@@ -190,7 +191,7 @@ TEST_F(Command, OptionsChangeThePicture) {
           "--light 0,2,0,1", "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
         const Result result = run(std::string("render s.toml -o other.png ") + option);
         ASSERT_EQ(result.code, 0) << option << result.err;
-        EXPECT_NE(load_image(path("other.png")).rgba, plain.rgba) << option;
+        EXPECT_TRUE(load_image(path("other.png")).rgba != plain.rgba) << option;
     }
     ASSERT_EQ(run("render s.toml -o small.png --size 11x7").code, 0);
     EXPECT_EQ(load_image(path("small.png")).width, 11);
@@ -202,8 +203,8 @@ TEST_F(Command, ThePictureDoesNotDependOnThreadsOrISA) {
     ASSERT_EQ(run("render s.toml -o one.png --threads 1").code, 0);
     ASSERT_EQ(run("render s.toml -o three.png --threads 3").code, 0);
     ASSERT_EQ(run("render s.toml -o scalar.png --isa reference").code, 0);
-    EXPECT_EQ(read(path("one.png")), read(path("three.png")));
-    EXPECT_EQ(read(path("one.png")), read(path("scalar.png")));
+    EXPECT_TRUE(read(path("one.png")) == read(path("three.png")));
+    EXPECT_TRUE(read(path("one.png")) == read(path("scalar.png")));
 }
 
 TEST_F(Command, StandardOutputCarriesThePictureAndNothingElse) {
@@ -223,7 +224,7 @@ TEST_F(Command, StatsAreCountsAndTimes) {
     EXPECT_TRUE(json.out.starts_with("{\"triangles\": ")) << json.out;
     EXPECT_TRUE(json.out.ends_with("}\n")) << json.out;
     for (const char* key : {"shaded_pixels", "geometry_ms", "tiles_ms", "busy_threads", "isa"})
-        EXPECT_SAYS(json.out, "\"" + std::string(key) + "\": ");
+        EXPECT_SAYS(json.out, fmt::format("\"{}\": ", key));
     EXPECT_SAYS(run("render s.toml --stats text").out, "shaded_pixels");
 }
 
@@ -233,11 +234,11 @@ TEST_F(Command, TurntableNumbersItsFiles) {
     const Result result = run("render s.toml --turntable 3 -o 't{frame:2}.png' --quiet");
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(entries(), (std::vector<std::string>{"s.toml", "t00.png", "t01.png", "t02.png"}));
-    EXPECT_NE(read(path("t00.png")), read(path("t01.png")));
+    EXPECT_TRUE(read(path("t00.png")) != read(path("t01.png")));
     ASSERT_EQ(run("render s.toml -o still.png --quiet").code, 0);
-    EXPECT_EQ(read(path("t00.png")), read(path("still.png")));
+    EXPECT_TRUE(read(path("t00.png")) == read(path("still.png")));
     ASSERT_EQ(run("render s.toml --camera-azimuth 120 -o turned.png --quiet").code, 0);
-    EXPECT_EQ(read(path("t01.png")), read(path("turned.png")));
+    EXPECT_TRUE(read(path("t01.png")) == read(path("turned.png")));
 }
 
 TEST_F(Command, SamplesAverageToExactValues) {
@@ -289,7 +290,7 @@ TEST_F(Command, BakeWritesFourMapsInADirectoryOrUnderAPrefix) {
     for (const char* name : {"normal", "tangent", "bitangent", "specular"}) {
         const std::string in_directory = read(path("maps") / (std::string(name) + ".png"));
         EXPECT_NE(in_directory, "");
-        EXPECT_EQ(in_directory, read(path("steel-" + std::string(name) + ".png")));
+        EXPECT_TRUE(in_directory == read(path("steel-" + std::string(name) + ".png")));
     }
 }
 
@@ -309,7 +310,7 @@ TEST_F(Command, BakedMapsGiveTheSamePictureAsTheGenerator) {
                                                               "file = \"steel-bitangent.png\"\n"));
     ASSERT_EQ(run("render made.toml").code, 0);
     ASSERT_EQ(run("render read.toml").code, 0);
-    EXPECT_EQ(read(path("made.png")), read(path("read.png")));
+    EXPECT_TRUE(read(path("made.png")) == read(path("read.png")));
 }
 
 TEST_F(Command, BenchReportsOrderStatistics) {
@@ -318,7 +319,7 @@ TEST_F(Command, BenchReportsOrderStatistics) {
     EXPECT_EQ(json.code, 0) << json.err;
     for (const char* key : {"median_ms", "min_ms", "max_ms", "p95_ms", "geometry_ms", "tiles_ms",
                             "mpixel_per_s", "isa", "threads", "frames"})
-        EXPECT_SAYS(json.out, "\"" + std::string(key) + "\": ");
+        EXPECT_SAYS(json.out, fmt::format("\"{}\": ", key));
     const Result text = run("bench s.toml --frames 5");
     EXPECT_SAYS(text.out, "median");
     EXPECT_EQ(entries(), (std::vector<std::string>{"s.toml"}));
@@ -340,7 +341,7 @@ TEST_F(Command, EveryProfileDrawsTheDefaultScene) {
                 std::string(machine) + ".png --machine " + machine);
         EXPECT_EQ(result.code, 0) << result.err;
     }
-    EXPECT_NE(read(path("nv2a.png")), read(path("ideal.png")));
+    EXPECT_TRUE(read(path("nv2a.png")) != read(path("ideal.png")));
 }
 
 }  // namespace
