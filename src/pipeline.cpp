@@ -1,1 +1,259 @@
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <burnish/error.hpp>
+#include <burnish/renderer.hpp>
+#include <chrono>
+#include <new>
+
+#include "core/cpu.hpp"
+#include "draw.hpp"
+#include "image/tile_image.hpp"
+#include "raster/bin.hpp"
+#include "shade/packets.hpp"
+
+namespace burnish {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::int32_t tile_count(std::int32_t pixels) {
+    return (pixels + kTileSize - 1) / kTileSize;
+}
+
+/// Triangles `first` .. `last` - 1 of draw `draw`.
+struct ChunkRange {
+    std::uint32_t draw;
+    std::size_t first, last;
+};
+
+/// What one worker needs to turn bins into pixels.
+struct Worker {
+    explicit Worker(PixelFormat format) : image(format) {}
+    TileVisibility visibility;
+    PacketShader shader;
+    TileImage image;
+    BlockTriangles block{};
+    std::uint64_t tiles = 0;
+};
+
+StoreFormat store_format(PixelFormat format) {
+    return static_cast<StoreFormat>(format);
+}
+
+}  // namespace
+
+struct Renderer::State {
+    State(const RendererOptions& options)
+        : kernels(select_table(options.isa)),
+          pool(options.threads),
+          memory_cap(options.memory_cap) {}
+
+    void prepare(const Scene& scene, const Framebuffer& target);
+    void transform(const Scene& scene);
+    void bin(FrameStats& stats);
+    void draw_tiles(const Scene& scene, Framebuffer& target, bool first_round, bool last_round);
+    void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, const Scene& scene,
+                   Framebuffer& target, bool first_round, bool last_round);
+    void shade_tile(Worker& worker) const;
+    float* saved_depth(std::int32_t x, std::int32_t y);
+
+    const KernelTable& kernels;
+    WorkerPool pool;
+    std::size_t memory_cap;
+
+    FrameView frame{};
+    FrameSize size{};
+    std::vector<std::unique_ptr<Draw>> draws;
+    std::vector<DepthRule> depth_rules;
+    std::vector<ShadedDraw> shaded_draws;
+    std::vector<ChunkRange> ranges;
+    std::size_t next_range = 0;  ///< first one not binned yet
+    std::vector<std::unique_ptr<Chunk>> chunks;
+    std::size_t chunk_count = 0;  ///< of this round
+    std::vector<std::unique_ptr<Worker>> workers;
+    AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
+    DerivedMaps maps;
+};
+
+Renderer::Renderer(const RendererOptions& options) : m_state(std::make_unique<State>(options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+std::string_view Renderer::isa() const noexcept {
+    return m_state->kernels.isa;
+}
+int Renderer::threads() const noexcept {
+    return m_state->pool.size();
+}
+
+/// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
+/// the memory cap, as many as fit; then the tiles are drawn and the next ones follow.
+FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
+    State& s = *m_state;
+    FrameStats stats;
+    try {
+        const auto start = Clock::now();
+        s.prepare(scene, target);
+        s.transform(scene);
+        stats.geometry_ms = milliseconds_since(start);
+        for (bool first_round = true; first_round || s.next_range < s.ranges.size();
+             first_round = false) {
+            const auto round = Clock::now();
+            s.bin(stats);
+            stats.geometry_ms += milliseconds_since(round);
+            const bool last_round = s.next_range == s.ranges.size();
+            if (!last_round) ++stats.flushes;
+            const auto tiles = Clock::now();
+            s.draw_tiles(scene, target, first_round, last_round);
+            stats.tiles_ms += milliseconds_since(tiles);
+        }
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::limit, fmt::format("out of memory for a frame of {}x{} pixels",
+                                                  target.width(), target.height()));
+    }
+    for (const auto& worker : s.workers) {
+        stats.shaded_pixels += worker->shader.shaded_pixels();
+        stats.tiles_per_worker.push_back(worker->tiles);
+    }
+    return stats;
+}
+
+/// Camera, programs and raster state; the list of chunks.
+void Renderer::State::prepare(const Scene& scene, const Framebuffer& target) {
+    scene.machine.validate();
+    size = {target.width(), target.height()};
+    frame = {&scene, make_view(scene.camera, size.width, size.height),
+             make_viewport(scene.machine, size.width, size.height)};
+    while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
+    draws.resize(scene.objects.size());
+    ranges.clear();
+    next_range = 0;
+    const std::size_t step = chunk_size(size);
+    for (std::uint32_t i = 0; i < draws.size(); ++i) {
+        prepare_draw(*draws[i], frame, scene.objects[i], maps);
+        const std::size_t count = draws[i]->triangle_count();
+        for (std::size_t first = 0; first < count; first += step) {
+            ranges.push_back({i, first, std::min(first + step, count)});
+        }
+    }
+    maps.drop_unused();
+    if (!workers.empty() && workers.front()->image.format() != target.format()) workers.clear();
+    while (workers.size() < static_cast<std::size_t>(pool.size())) {
+        workers.push_back(std::make_unique<Worker>(target.format()));
+    }
+    for (const auto& worker : workers) {
+        worker->tiles = 0;
+        worker->shader.reset_count();
+    }
+}
+
+void Renderer::State::transform(const Scene& scene) {
+    depth_rules.clear();
+    shaded_draws.clear();
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        Draw& draw = *draws[i];
+        transform_draw(draw, frame, scene.objects[i], kernels, pool);
+        depth_rules.push_back(draw.depth);
+        shaded_draws.push_back({&draw.shading, draw.mesh()});
+    }
+}
+
+/// Chunks in order until all are binned or the memory cap is met; at least one.
+void Renderer::State::bin(FrameStats& stats) {
+    const std::size_t first = next_range;
+    const std::size_t left = ranges.size() - first;
+    while (chunks.size() < left) chunks.push_back(std::make_unique<Chunk>());
+    std::atomic<std::size_t> next{0}, bytes{0};
+    pool.run([&](int) {
+        for (;;) {
+            // Chunks are handed out in order and all that were handed out are finished, so those of
+            // a round are consecutive whatever the schedule.
+            const bool full = bytes.load(std::memory_order_relaxed) >= memory_cap;
+            if (full && next.load(std::memory_order_relaxed) > 0) return;
+            const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+            if (i >= left) return;
+            const ChunkRange& range = ranges[first + i];
+            const Draw& draw = *draws[range.draw];
+            chunks[i]->fill(draw.mesh(), range.draw, draw.facing, range.first, range.last,
+                            frame.viewport, size);
+            bytes.fetch_add(chunks[i]->bytes(), std::memory_order_relaxed);
+        }
+    });
+    chunk_count = std::min(next.load(), left);
+    next_range = first + chunk_count;
+    for (std::size_t i = 0; i < chunk_count; ++i) {
+        const BinCounts& counts = chunks[i]->counts();
+        stats.triangles += counts.submitted;
+        stats.nonfinite_triangles += counts.nonfinite;
+        stats.degenerate_triangles += counts.degenerate;
+        stats.clipped_triangles += counts.clipped;
+        stats.binned_triangles += counts.binned;
+    }
+}
+
+float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
+    const auto tile =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_count(size.width)) +
+        static_cast<std::size_t>(x);
+    return depth.data() + tile * kTilePixels;
+}
+
+void Renderer::State::draw_tiles(const Scene& scene, Framebuffer& target, bool first_round,
+                                 bool last_round) {
+    const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
+    const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    if (!last_round) depth.resize(count * kTilePixels);
+    for_each_index(pool, count, 1, [&](std::size_t i, int w) {
+        const auto tile = static_cast<std::int32_t>(i);
+        Worker& worker = *workers[static_cast<std::size_t>(w)];
+        ++worker.tiles;
+        draw_tile(worker, tile % columns, tile / columns, scene, target, first_round, last_round);
+    });
+}
+
+/// Everything of one tile, in one worker's cache: depth and visibility of all triangles, then the
+/// colours of what is visible, then once to the frame.
+void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, const Scene& scene,
+                                Framebuffer& target, bool first_round, bool last_round) {
+    TileVisibility& visibility = worker.visibility;
+    visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+    for (std::size_t i = 0; i < chunk_count; ++i) visibility.draw(*chunks[i], depth_rules, kernels);
+    if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
+    if (visibility.empty()) {
+        if (first_round) fill_tile(target, visibility.left(), visibility.top(), scene.background);
+        return;
+    }
+    if (first_round) {
+        worker.image.fill(scene.background);
+    } else {
+        worker.image.load(target, visibility.left(), visibility.top());
+    }
+    shade_tile(worker);
+    worker.image.resolve(target, visibility.left(), visibility.top());
+}
+
+void Renderer::State::shade_tile(Worker& worker) const {
+    const TileVisibility& visibility = worker.visibility;
+    const auto triangles = visibility.triangles();
+    worker.shader.begin(kernels, visibility.left(), visibility.top(), triangles.size(),
+                        store_format(worker.image.format()), worker.image.pixels());
+    for (int block = 0; block < kTileBlocks; ++block) {
+        visibility.match_block(block, kernels, worker.block);
+        for (int i = 0; i < worker.block.count; ++i) {
+            const std::uint32_t id = worker.block.id[i];
+            worker.shader.add(shaded_draws[triangles[id]->draw], *triangles[id], id, block,
+                              worker.block.mask[i]);
+        }
+    }
+    worker.shader.finish();
+}
+
+}  // namespace burnish

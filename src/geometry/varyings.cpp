@@ -1,1 +1,101 @@
+#include "geometry/varyings.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+namespace burnish {
+
+namespace {
+
+float dot(const glm::vec3& a, const glm::vec3& b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+/// Zero stays zero.
+glm::vec3 normalised(const glm::vec3& v) {
+    const float length = std::sqrt(dot(v, v));
+    return length > 0.0F ? v * (1.0F / length) : v;
+}
+
+/// Everything that a lit vertex may be asked for.
+struct LitVertex {
+    glm::vec3 half, light, view;  // in the tangent frame, x/2 + 1/2
+    float n_dot_l;
+};
+
+LitVertex light_vertex(const VertexFrame& v, const LightSpace& space) {
+    const glm::vec3 l = normalised(space.light - v.position * space.light_w);
+    const glm::vec3 view = normalised(space.eye - v.position);
+    const glm::vec3 h = normalised(l + view);
+    const glm::vec3 t(v.tangent), b = bitangent(v);
+    const auto coded = [&](const glm::vec3& x) {
+        return glm::vec3(dot(t, x), dot(b, x), dot(v.normal, x)) * 0.5F + 0.5F;
+    };
+    return {coded(h), coded(l), coded(view), std::max(dot(v.normal, l), 0.0F)};
+}
+
+float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit) {
+    switch (varying.source) {
+        case Varying::Source::half_tangent:
+            return v.half[varying.index];
+        case Varying::Source::light_tangent:
+            return v.light[varying.index];
+        case Varying::Source::view_tangent:
+            return v.view[varying.index];
+        case Varying::Source::n_dot_l:
+            return v.n_dot_l;
+        case Varying::Source::lit:
+            return v.n_dot_l * lit.tint[varying.index] + lit.base[varying.index];
+        default:
+            return 0.0F;  // a mesh has no vertex colours
+    }
+}
+
+float value_of(const RawVertex& v, const Varying& varying) {
+    const auto clamped = [](float x) { return x > 0.0F ? std::min(x, 1.0F) : 0.0F; };
+    switch (varying.source) {
+        case Varying::Source::color0:
+            return clamped(v.color0[varying.index]);
+        case Varying::Source::color1:
+            return clamped(v.color1[varying.index]);
+        case Varying::Source::uv:
+            return v.uv[static_cast<std::size_t>(varying.index / 4)][varying.index % 4];
+        default:
+            return 0.0F;  // raw vertices have no normals
+    }
+}
+
+}  // namespace
+
+glm::vec3 bitangent(const VertexFrame& v) {
+    const glm::vec3 t(v.tangent), &n = v.normal;
+    return glm::vec3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) *
+           v.tangent.w;
+}
+
+void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
+                   const LightSpace& space, const LitColors& lit, WorkerPool& pool,
+                   std::vector<float>& out) {
+    constexpr std::size_t kBatch = 1024;
+    out.resize(vertices.size() * list.size());
+    if (list.empty()) return;
+    for_each_index(pool, (vertices.size() + kBatch - 1) / kBatch, 1, [&](std::size_t batch, int) {
+        const std::size_t last = std::min(vertices.size(), (batch + 1) * kBatch);
+        for (std::size_t i = batch * kBatch; i < last; ++i) {
+            const LitVertex v = light_vertex(vertices[i], space);
+            float* to = out.data() + i * list.size();
+            for (const Varying& varying : list) *to++ = value_of(v, varying, lit);
+        }
+    });
+}
+
+void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
+                  std::vector<float>& out) {
+    out.clear();
+    out.reserve(vertices.size() * list.size());
+    for (const RawVertex& v : vertices) {
+        for (const Varying& varying : list) out.push_back(value_of(v, varying));
+    }
+}
+
+}  // namespace burnish

@@ -15,8 +15,9 @@ std::ptrdiff_t channel_size(PixelFormat format) {
 void check_size(int width, int height) {
     const auto fits = [](int side) { return side >= 1 && side <= Framebuffer::kMaxSize; };
     if (!fits(width) || !fits(height)) {
-        throw Error(ErrorCode::bad_option, fmt::format("frame size {}x{}, expected 1 .. {} both ways",
-                                                       width, height, Framebuffer::kMaxSize));
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("frame size {}x{}, expected 1 .. {} both ways", width, height,
+                                Framebuffer::kMaxSize));
     }
 }
 
@@ -24,9 +25,12 @@ void check_size(int width, int height) {
 
 std::size_t pixel_size(PixelFormat format) noexcept {
     switch (format) {
-        case PixelFormat::rgba8: return 4;
-        case PixelFormat::rgba16: return 8;
-        case PixelFormat::rgba32f: return 16;
+        case PixelFormat::rgba8:
+            return 4;
+        case PixelFormat::rgba16:
+            return 8;
+        case PixelFormat::rgba32f:
+            return 16;
     }
     return 0;
 }
@@ -53,11 +57,12 @@ Framebuffer::Framebuffer(void* pixels, std::ptrdiff_t pitch, int width, int heig
                     fmt::format("row pitch {}, expected a multiple of {} and at least {}", pitch,
                                 channel_size(format), packed));
     }
-    if (pixels == nullptr ||
-        reinterpret_cast<std::uintptr_t>(pixels) % static_cast<std::uintptr_t>(channel_size(format)) != 0) {
+    if (pixels == nullptr || reinterpret_cast<std::uintptr_t>(pixels) %
+                                     static_cast<std::uintptr_t>(channel_size(format)) !=
+                                 0) {
         throw Error(ErrorCode::bad_option,
-                    fmt::format("pixels at {}, expected an address that is a multiple of {}", pixels,
-                                channel_size(format)));
+                    fmt::format("pixels at {}, expected an address that is a multiple of {}",
+                                pixels, channel_size(format)));
     }
 }
 

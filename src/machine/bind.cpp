@@ -105,7 +105,8 @@ class Binder {
         const Components& r = at(input.reg);
         OperandValues o;
         o.mapping = input.mapping;
-        if (input.component == Component::alpha || (alpha_portion && input.component == Component::rgb)) {
+        if (input.component == Component::alpha ||
+            (alpha_portion && input.component == Component::rgb)) {
             o.value.fill(r[3]);
         } else if (input.component == Component::blue) {
             o.value.fill(r[2]);
@@ -138,8 +139,10 @@ class Binder {
         const bool uses_third = p.third_out != Register::discard;
         if (uses_third) op.third = p.third == Third::mux ? ThirdKind::mux : ThirdKind::sum;
         op.mux = at(Register::spare0)[3];
-        const bool ab_same = op.ab == ProductKind::dot || (same_everywhere(op.a) && same_everywhere(op.b));
-        const bool cd_same = op.cd == ProductKind::dot || (same_everywhere(op.c) && same_everywhere(op.d));
+        const bool ab_same =
+            op.ab == ProductKind::dot || (same_everywhere(op.a) && same_everywhere(op.b));
+        const bool cd_same =
+            op.cd == ProductKind::dot || (same_everywhere(op.c) && same_everywhere(op.d));
         const bool ab_read = uses_third || p.ab_out != Register::discard;
         const bool cd_read = uses_third || p.cd_out != Register::discard;
         op.components = (ab_same || !ab_read) && (cd_same || !cd_read) ? 1 : 3;
@@ -289,7 +292,8 @@ class Binder {
             if (m_last_use[static_cast<std::size_t>(value)] < 0) continue;
             m_plane[static_cast<std::size_t>(value)] = m_bound.plane_count++;
             m_bound.constants.push_back(static_cast<std::int16_t>(code));
-            m_last_use[static_cast<std::size_t>(value)] = static_cast<int>(m_program.stages.size()) + 1;
+            m_last_use[static_cast<std::size_t>(value)] =
+                static_cast<int>(m_program.stages.size()) + 1;
         }
     }
 
@@ -413,7 +417,8 @@ bool BoundProgram::reads(Register r) const {
     return std::any_of(planes.begin(), planes.end(), [](int plane) { return plane >= 0; });
 }
 
-BoundProgram bind(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units) {
+BoundProgram bind(const CombinerProgram& program, const Machine& machine,
+                  std::uint32_t enabled_units) {
     program.validate(machine);
     return Binder(program, machine, enabled_units).bind();
 }
@@ -428,7 +433,8 @@ void load_constants(const BoundProgram& program, Packet& packet) {
 
 void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet) {
     if (program.numbers == NumberModel::nine_bit) {
-        for (const PortionCtx& portion : program.portions) kernels.portion_nine_bit(packet, portion);
+        for (const PortionCtx& portion : program.portions)
+            kernels.portion_nine_bit(packet, portion);
         kernels.final_nine_bit(packet, program.final_combiner);
     } else {
         for (const PortionCtx& portion : program.portions) kernels.portion_wide(packet, portion);

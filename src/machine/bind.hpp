@@ -36,7 +36,8 @@ struct BoundProgram {
 
 /// @param enabled_units bit i: texture unit i delivers texels; others read (0, 0, 0, 1).
 /// Throws Error{bad_program} for what `machine` cannot run.
-BoundProgram bind(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units);
+BoundProgram bind(const CombinerProgram& program, const Machine& machine,
+                  std::uint32_t enabled_units);
 
 /// Fills the constant planes of a packet; needed once per packet memory and program.
 void load_constants(const BoundProgram& program, Packet& packet);

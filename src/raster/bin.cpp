@@ -1,1 +1,141 @@
+#include "raster/bin.hpp"
 
+#include <algorithm>
+
+#include "geometry/clip.hpp"
+
+namespace burnish {
+
+namespace {
+
+constexpr std::int32_t tiles(std::int32_t pixels) {
+    return (pixels + kTileSize - 1) / kTileSize;
+}
+
+}  // namespace
+
+std::size_t chunk_size(FrameSize frame) {
+    constexpr std::size_t kMaxEntries = std::size_t{1} << 23;
+    const auto count = static_cast<std::size_t>(tiles(frame.width)) *
+                       static_cast<std::size_t>(tiles(frame.height));
+    return std::clamp<std::size_t>(kMaxEntries / count, 64, 4096);
+}
+
+std::size_t Chunk::bytes() const {
+    return m_triangles.size() * sizeof(SetupTriangle) + m_unsorted.size() * sizeof(TileEntry) +
+           (m_entries.size() + m_first.size()) * sizeof(std::uint32_t);
+}
+
+std::span<const std::uint32_t> Chunk::tile(std::int32_t x, std::int32_t y) const {
+    const std::int32_t column = x - m_x0, row = y - m_y0;
+    if (column < 0 || row < 0 || column >= m_width || row >= m_height) return {};
+    const auto at = static_cast<std::size_t>(row * m_width + column);
+    return std::span(m_entries).subspan(m_first[at], m_first[at + 1] - m_first[at]);
+}
+
+void Chunk::fill(const ScreenMesh& mesh, std::uint32_t draw, Facing facing, std::size_t first,
+                 std::size_t last, const Viewport& viewport, FrameSize frame) {
+    m_triangles.clear();
+    m_unsorted.clear();
+    m_counts = {};
+    m_counts.submitted = last - first;
+    for (std::size_t t = first; t < last; ++t) {
+        const std::uint32_t vertex[3] = {mesh.indices[3 * t], mesh.indices[3 * t + 1],
+                                         mesh.indices[3 * t + 2]};
+        add(mesh, vertex, draw, facing, viewport, frame);
+    }
+    m_counts.binned = m_triangles.size();
+    sort_into_tiles(frame);
+}
+
+void Chunk::add(const ScreenMesh& mesh, const std::uint32_t (&vertex)[3], std::uint32_t draw,
+                Facing facing, const Viewport& viewport, FrameSize frame) {
+    const ScreenVertex &v0 = mesh.screen[vertex[0]], &v1 = mesh.screen[vertex[1]],
+                       &v2 = mesh.screen[vertex[2]];
+    const std::uint32_t any = v0.outcode | v1.outcode | v2.outcode;
+    if ((any & Outcode::nonfinite) != 0) {
+        ++m_counts.nonfinite;
+        return;
+    }
+    if ((v0.outcode & v1.outcode & v2.outcode & Outcode::frustum) != 0) return;
+    SetupTriangle triangle{};
+    std::copy(std::begin(vertex), std::end(vertex), triangle.vertex);
+    triangle.draw = draw;
+    if ((any & Outcode::needs_clip) != 0) {
+        add_clipped(mesh, triangle, facing, viewport, frame);
+    } else if (add_projected(v0, v1, v2, triangle, facing, frame) == SetupResult::degenerate) {
+        ++m_counts.degenerate;
+    }
+}
+
+void Chunk::add_clipped(const ScreenMesh& mesh, SetupTriangle triangle, Facing facing,
+                        const Viewport& viewport, FrameSize frame) {
+    const auto homogeneous = [&](int i) { return mesh.homogeneous[triangle.vertex[i]]; };
+    const ClipPolygon polygon = clip_triangle(homogeneous(0), homogeneous(1), homogeneous(2));
+    if (polygon.count == 0) return;
+    ++m_counts.clipped;
+    triangle.clipped = 1;
+    ScreenVertex corners[ClipPolygon::kMaxCorners];
+    for (int i = 0; i < polygon.count; ++i) {
+        const ClipVertex& v = polygon.corner[static_cast<std::size_t>(i)];
+        // A corner of the triangle keeps the position that its neighbours see.
+        if (v.original >= 0) {
+            corners[i] = mesh.screen[triangle.vertex[v.original]];
+            if ((corners[i].outcode & Outcode::needs_clip) == 0) continue;
+        }
+        if (!project(v, viewport, corners[i])) return;
+    }
+    for (int i = 2; i < polygon.count; ++i) {
+        add_projected(corners[0], corners[i - 1], corners[i], triangle, facing, frame);
+    }
+}
+
+SetupResult Chunk::add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
+                                 const ScreenVertex& v2, SetupTriangle triangle, Facing facing,
+                                 FrameSize frame) {
+    PixelRect box{};
+    const SetupResult result = setup_triangle(v0, v1, v2, facing, frame, triangle, box);
+    if (result != SetupResult::drawn) return result;
+    const auto index = static_cast<std::uint32_t>(m_triangles.size());
+    const std::int32_t x0 = box.x0 / kTileSize, x1 = box.x1 / kTileSize;
+    const std::int32_t y0 = box.y0 / kTileSize, y1 = box.y1 / kTileSize;
+    const bool one_tile = x0 == x1 && y0 == y1;
+    const std::size_t before = m_unsorted.size();
+    for (std::int32_t y = y0; y <= y1; ++y) {
+        for (std::int32_t x = x0; x <= x1; ++x) {
+            TileTriangle seen;
+            if (!one_tile && !tile_triangle(triangle, x, y, frame, seen)) continue;
+            m_unsorted.push_back(
+                {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), index});
+        }
+    }
+    if (m_unsorted.size() == before) return SetupResult::culled;
+    m_triangles.push_back(triangle);
+    return result;
+}
+
+/// Counting sort over the rectangle of tiles that the chunk touches; stable, so order is kept.
+void Chunk::sort_into_tiles(FrameSize frame) {
+    std::int32_t x1 = -1, y1 = -1;
+    m_x0 = tiles(frame.width);
+    m_y0 = tiles(frame.height);
+    for (const TileEntry& e : m_unsorted) {
+        m_x0 = std::min<std::int32_t>(m_x0, e.x);
+        m_y0 = std::min<std::int32_t>(m_y0, e.y);
+        x1 = std::max<std::int32_t>(x1, e.x);
+        y1 = std::max<std::int32_t>(y1, e.y);
+    }
+    m_width = std::max(x1 - m_x0 + 1, 0);
+    m_height = std::max(y1 - m_y0 + 1, 0);
+    const auto place = [&](const TileEntry& e) {
+        return static_cast<std::size_t>((e.y - m_y0) * m_width + (e.x - m_x0));
+    };
+    // m_first[t + 1] first counts tile t, then runs through its entries, and ends as its end.
+    m_first.assign(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height) + 2, 0);
+    for (const TileEntry& e : m_unsorted) ++m_first[place(e) + 2];
+    for (std::size_t t = 2; t < m_first.size(); ++t) m_first[t] += m_first[t - 1];
+    m_entries.resize(m_unsorted.size());
+    for (const TileEntry& e : m_unsorted) m_entries[m_first[place(e) + 1]++] = e.triangle;
+}
+
+}  // namespace burnish

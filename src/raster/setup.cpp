@@ -1,1 +1,132 @@
+#include "raster/setup.hpp"
 
+#include <algorithm>
+#include <utility>
+
+namespace burnish {
+
+namespace {
+
+constexpr std::int32_t kPixel = 256;  // window units
+constexpr std::int32_t kCentre = kPixel / 2;
+
+std::int32_t clamp_to(std::int32_t value, std::int32_t size) {
+    return std::clamp(value, 0, size - 1);
+}
+
+/// First and last pixel whose centre lies between two window coordinates, inclusive.
+std::int32_t first_pixel(std::int32_t low) {
+    return (low - kCentre + kPixel - 1) >> 8;
+}
+std::int32_t last_pixel(std::int32_t high) {
+    return (high - kCentre) >> 8;
+}
+
+/// Depth as a plane over the window, in double, from the snapped corners.
+void depth_plane(const ScreenVertex (&v)[3], double area, SetupTriangle& out) {
+    const double z0 = static_cast<double>(v[0].z);
+    const double dz1 = static_cast<double>(v[1].z) - z0, dz2 = static_cast<double>(v[2].z) - z0;
+    const double x1 = v[1].x - v[0].x, y1 = v[1].y - v[0].y;
+    const double x2 = v[2].x - v[0].x, y2 = v[2].y - v[0].y;
+    const double scale = kPixel / area;
+    const double zx = (dz1 * y2 - dz2 * y1) * scale, zy = (dz2 * x1 - dz1 * x2) * scale;
+    const double dx = out.reference_x + 0.5 - v[0].x / static_cast<double>(kPixel);
+    const double dy = out.reference_y + 0.5 - v[0].y / static_cast<double>(kPixel);
+    out.z = static_cast<float>(z0 + dx * zx + dy * zy);
+    out.zx = static_cast<float>(zx);
+    out.zy = static_cast<float>(zy);
+    out.z_low = std::min({v[0].z, v[1].z, v[2].z});
+    out.z_high = std::max({v[0].z, v[1].z, v[2].z});
+}
+
+struct Edge {
+    std::int64_t a, b, c;  ///< inside where a x + b y + c >= 0, x, y in window units
+};
+
+/// From one corner to the next. Pixels on an edge belong to it if it is a left edge (the inside
+/// lies to its right) or a top edge (level, the inside below): the top-left rule.
+Edge edge(const SetupTriangle& t, int from, int to) {
+    Edge e{};
+    e.a = t.y[from] - t.y[to];
+    e.b = t.x[to] - t.x[from];
+    e.c = -e.a * t.x[from] - e.b * t.y[from];
+    const bool top_left = e.a > 0 || (e.a == 0 && e.b > 0);
+    if (!top_left) e.c -= 1;
+    return e;
+}
+
+}  // namespace
+
+PixelRect pixel_box(const SetupTriangle& t, FrameSize frame) {
+    const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
+    const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    return {std::max(first_pixel(x_low), 0), std::max(first_pixel(y_low), 0),
+            std::min(last_pixel(x_high), frame.width - 1),
+            std::min(last_pixel(y_high), frame.height - 1)};
+}
+
+SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2,
+                           Facing facing, FrameSize frame, SetupTriangle& out, PixelRect& box) {
+    ScreenVertex v[3] = {v0, v1, v2};
+    std::int64_t area = static_cast<std::int64_t>(v1.x - v0.x) * (v2.y - v0.y) -
+                        static_cast<std::int64_t>(v1.y - v0.y) * (v2.x - v0.x);
+    if (area == 0) return SetupResult::degenerate;
+    if (facing == Facing::front_only && area > 0) return SetupResult::culled;
+    if (facing == Facing::back_only && area < 0) return SetupResult::culled;
+    if (area < 0) {
+        area = -area;
+        std::swap(v[1], v[2]);
+        std::swap(out.vertex[1], out.vertex[2]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        out.x[i] = v[i].x;
+        out.y[i] = v[i].y;
+    }
+    box = pixel_box(out, frame);
+    if (box.x0 > box.x1 || box.y0 > box.y1) return SetupResult::culled;
+    out.reference_x = clamp_to(v[0].x >> 8, frame.width);
+    out.reference_y = clamp_to(v[0].y >> 8, frame.height);
+    depth_plane(v, static_cast<double>(area), out);
+    return SetupResult::drawn;
+}
+
+bool tile_triangle(const SetupTriangle& t, std::int32_t tile_x, std::int32_t tile_y,
+                   FrameSize frame, TileTriangle& out) {
+    const std::int32_t left = tile_x * kTileSize, top = tile_y * kTileSize;
+    constexpr std::int32_t kLast = kTileSize - 1;
+    out.edges = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Edge e = edge(t, i, (i + 1) % 3);
+        const auto a = static_cast<std::int32_t>(e.a), b = static_cast<std::int32_t>(e.b);
+        // The value at a pixel centre is a multiple of 256 plus the one here, so dividing by 256,
+        // rounding down, keeps its sign.
+        const std::int64_t c = (e.a * (static_cast<std::int64_t>(left) * kPixel + kCentre) +
+                                e.b * (static_cast<std::int64_t>(top) * kPixel + kCentre) + e.c) >>
+                               8;
+        const std::int64_t across = static_cast<std::int64_t>(a) * kLast;
+        const std::int64_t down = static_cast<std::int64_t>(b) * kLast;
+        if (c + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0)
+            return false;
+        if (c + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0) continue;
+        out.a[out.edges] = a;
+        out.b[out.edges] = b;
+        out.c[out.edges] = static_cast<std::int32_t>(c);
+        ++out.edges;
+    }
+    const PixelRect box = pixel_box(t, frame);
+    out.x0 = std::max(box.x0 - left, 0);
+    out.y0 = std::max(box.y0 - top, 0);
+    out.x1 = std::min(box.x1 - left, kLast);
+    out.y1 = std::min(box.y1 - top, kLast);
+    if (out.x0 > out.x1 || out.y0 > out.y1) return false;
+    out.z = t.z;
+    out.zx = t.zx;
+    out.zy = t.zy;
+    out.z_low = t.z_low;
+    out.z_high = t.z_high;
+    out.offset_x = left - t.reference_x;
+    out.offset_y = top - t.reference_y;
+    return true;
+}
+
+}  // namespace burnish

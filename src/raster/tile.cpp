@@ -1,1 +1,83 @@
+#include "raster/tile.hpp"
 
+#include <algorithm>
+
+namespace burnish {
+
+namespace {
+
+constexpr int kBatch = 32;  // triangles per call of the kernel: 4 KB
+constexpr int kBlocksPerRow = kTileSize / kBlockSize;
+
+/// Pixels of a block that lie inside the frame.
+std::uint64_t frame_mask(std::int32_t left, std::int32_t top, FrameSize frame) {
+    const std::int32_t columns = std::clamp(frame.width - left, 0, kBlockSize);
+    const std::int32_t rows = std::clamp(frame.height - top, 0, kBlockSize);
+    const std::uint64_t row = (std::uint64_t{1} << columns) - 1;
+    std::uint64_t mask = 0;
+    for (std::int32_t y = 0; y < rows; ++y) mask |= row << (kBlockSize * y);
+    return mask;
+}
+
+}  // namespace
+
+TileVisibility::TileVisibility()
+    : m_depth(kTilePixels), m_block_far(kTileBlocks), m_id(kTilePixels) {}
+
+void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth) {
+    m_tile_x = x;
+    m_tile_y = y;
+    m_frame = frame;
+    m_triangles.clear();
+    std::fill(m_id.begin(), m_id.end(), kNoTriangle);
+    if (depth == nullptr) {
+        std::fill(m_depth.begin(), m_depth.end(), 1.0F);
+        std::fill(m_block_far.begin(), m_block_far.end(), 1.0F);
+        return;
+    }
+    std::copy_n(depth, kTilePixels, m_depth.begin());
+    for (std::size_t block = 0; block < kTileBlocks; ++block) {
+        const auto first = m_depth.begin() + static_cast<std::ptrdiff_t>(block * kBlockPixels);
+        m_block_far[block] = *std::max_element(first, first + kBlockPixels);
+    }
+}
+
+void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
+                          const KernelTable& kernels) {
+    TileTriangle batch[kBatch];
+    RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data()};
+    for (const std::uint32_t index : chunk.tile(m_tile_x, m_tile_y)) {
+        const SetupTriangle& triangle = chunk.triangles()[index];
+        TileTriangle& seen = batch[ctx.count];
+        if (!tile_triangle(triangle, m_tile_x, m_tile_y, m_frame, seen)) continue;
+        const DepthRule& rule = rules[triangle.draw];
+        seen.id = static_cast<std::uint32_t>(m_triangles.size());
+        seen.pass_less = rule.pass_less;
+        seen.pass_equal = rule.pass_equal;
+        seen.pass_greater = rule.pass_greater;
+        seen.depth_write = rule.write;
+        m_triangles.push_back(&triangle);
+        if (++ctx.count == kBatch) {
+            kernels.rasterize(ctx);
+            ctx.count = 0;
+        }
+    }
+    if (ctx.count > 0) kernels.rasterize(ctx);
+}
+
+void TileVisibility::match_block(int block, const KernelTable& kernels, BlockTriangles& out) const {
+    kernels.match({m_id.data() + static_cast<std::ptrdiff_t>(block) * kBlockPixels, &out});
+    const std::int32_t x = left() + block % kBlocksPerRow * kBlockSize;
+    const std::int32_t y = top() + block / kBlocksPerRow * kBlockSize;
+    if (x + kBlockSize <= m_frame.width && y + kBlockSize <= m_frame.height) return;
+    const std::uint64_t inside = frame_mask(x, y, m_frame);
+    int kept = 0;
+    for (int i = 0; i < out.count; ++i) {
+        if ((out.mask[i] & inside) == 0) continue;
+        out.id[kept] = out.id[i];
+        out.mask[kept++] = out.mask[i] & inside;
+    }
+    out.count = kept;
+}
+
+}  // namespace burnish

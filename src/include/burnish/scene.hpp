@@ -47,6 +47,7 @@ enum class ColorInput {
     light_tangent,
     view_tangent,
     n_dot_l,  ///< max(0, normal . light), in every component
+    lit,      ///< max(0, normal . light) * lit_tint + lit_base, always per vertex
 };
 
 /// A pipeline given as a program instead of a reflectance model.
@@ -57,6 +58,8 @@ struct ProgramMaterial {
     ColorInput col0_a = ColorInput::vertex;
     ColorInput col1_rgb = ColorInput::vertex;
     ColorInput col1_a = ColorInput::vertex;
+    glm::vec3 lit_tint{1.0F};
+    glm::vec3 lit_base{0.0F};
 };
 
 /// How a surface reflects. Every map is RGBA8 data, never decoded from sRGB.
@@ -68,10 +71,11 @@ struct Material {
     float alpha_x = 0.15F;     ///< width of the lobe along the tangent, (0, 1]
     float alpha_y = 0.50F;     ///< along the bitangent
     TexturePtr normal_map;     ///< tangent-space normals coded n*127.5 + 128, +Y up
-    TexturePtr tangent_map;    ///< t * map_scale / alpha_x, same code; null: made from the above
+    TexturePtr tangent_map;    ///< t * map_scale / alpha_x, same code; null: made from the above.
+                               ///< Alpha: grey ks, for machines with two texture units
     TexturePtr bitangent_map;  ///< b * map_scale / alpha_y, same code; null: made from the above
     float map_scale = 0.0F;    ///< m of the two maps, needed if they are given: 1, 1/2, 1/4 or 1/8
-    TexturePtr specular_map;   ///< multiplies ks
+    TexturePtr specular_map;   ///< multiplies ks, where the machine has a third unit
     std::optional<ProgramMaterial> program;  ///< instead of the model
 };
 

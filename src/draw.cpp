@@ -1,0 +1,200 @@
+#include "draw.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+
+#include "geometry/clip.hpp"
+
+namespace burnish {
+
+namespace {
+
+/// Corners of the triangles of a primitive with `count` vertices.
+std::vector<std::uint32_t> triangle_indices(Topology topology, std::uint32_t count) {
+    std::vector<std::uint32_t> out;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        out.insert(out.end(), {a, b, c});
+    };
+    switch (topology) {
+        case Topology::triangles:
+            for (std::uint32_t i = 2; i < count; i += 3) add(i - 2, i - 1, i);
+            break;
+        case Topology::triangle_strip:  // every other one the other way round
+            for (std::uint32_t i = 2; i < count; ++i) {
+                i % 2 == 0 ? add(i - 2, i - 1, i) : add(i - 1, i - 2, i);
+            }
+            break;
+        case Topology::triangle_fan:
+            for (std::uint32_t i = 2; i < count; ++i) add(0, i - 1, i);
+            break;
+        case Topology::quads:  // split from the first to the third corner
+            for (std::uint32_t i = 3; i < count; i += 4) {
+                add(i - 3, i - 2, i - 1);
+                add(i - 3, i - 1, i);
+            }
+            break;
+        case Topology::quad_strip:  // corners 0 1 3 2 of each pair of pairs
+            for (std::uint32_t i = 3; i < count; i += 2) {
+                add(i - 3, i - 2, i);
+                add(i - 3, i, i - 1);
+            }
+            break;
+    }
+    return out;
+}
+
+DepthRule depth_rule(const RasterState& state) {
+    const auto rule = [&](int less, int equal, int greater) {
+        return DepthRule{static_cast<std::uint8_t>(less), static_cast<std::uint8_t>(equal),
+                         static_cast<std::uint8_t>(greater),
+                         static_cast<std::uint8_t>(state.depth_write ? 1 : 0)};
+    };
+    switch (state.depth_test) {
+        case DepthTest::never:
+            return rule(0, 0, 0);
+        case DepthTest::less:
+            return rule(1, 0, 0);
+        case DepthTest::equal:
+            return rule(0, 1, 0);
+        case DepthTest::lequal:
+            return rule(1, 1, 0);
+        case DepthTest::greater:
+            return rule(0, 0, 1);
+        case DepthTest::notequal:
+            return rule(1, 0, 1);
+        case DepthTest::gequal:
+            return rule(0, 1, 1);
+        case DepthTest::always:
+            return rule(1, 1, 1);
+    }
+    return rule(0, 0, 0);
+}
+
+Facing facing_of(Cull cull) {
+    switch (cull) {
+        case Cull::none:
+            return Facing::any;
+        case Cull::back:
+            return Facing::front_only;
+        case Cull::front:
+            return Facing::back_only;
+    }
+    return Facing::any;
+}
+
+Light light_of(const Scene& scene) {
+    if (scene.lights.size() > 1) {
+        throw Error(
+            ErrorCode::bad_option,
+            fmt::format("{} lights, expected at most 1: several need several passes, which this "
+                        "version does not have",
+                        scene.lights.size()));
+    }
+    if (scene.lights.empty()) return Light{.intensity = 0.0F};
+    return scene.lights.front();
+}
+
+ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps) {
+    static const Material kDefault;
+    const Material& material = object.material ? *object.material : kDefault;
+    if (material.program) return *material.program;
+    if (!std::holds_alternative<Mesh>(object.geometry)) {
+        throw Error(
+            ErrorCode::bad_program,
+            fmt::format(
+                "material '{}': a reflectance model needs a mesh, raw vertices need a program",
+                material.name));
+    }
+    const Light light = light_of(scene);
+    return compile_abp_modified(material, scene.machine, light.color * light.intensity,
+                                scene.ambient, maps);
+}
+
+void transform_mesh(Draw& draw, const FrameView& frame, const Object& object, const Mesh& mesh,
+                    const KernelTable& kernels, WorkerPool& pool) {
+    const glm::mat4 clip_from_object(frame.view.clip_from_world *
+                                     glm::dmat4(object.world_from_object));
+    TransformCtx whole{};
+    for (int i = 0; i < 16; ++i) whole.m[i] = clip_from_object[i / 4][i % 4];
+    whole.viewport = frame.viewport;
+    const std::array<const float*, 3> positions = mesh.positions();
+    const std::size_t count = mesh.vertex_count();
+    constexpr std::size_t kBatch = 1024;  // a multiple of every vector's lanes
+    for_each_index(pool, (count + kBatch - 1) / kBatch, 1, [&](std::size_t batch, int) {
+        const std::size_t first = batch * kBatch;
+        TransformCtx ctx = whole;
+        ctx.x = positions[0] + first;
+        ctx.y = positions[1] + first;
+        ctx.z = positions[2] + first;
+        ctx.count = static_cast<int>(std::min(kBatch, count - first));
+        ctx.screen = draw.screen.data() + first;
+        ctx.homogeneous = draw.homogeneous.data() + first;
+        kernels.transform(ctx);
+    });
+}
+
+void transform_raw(Draw& draw, const FrameView& frame, const Object& object,
+                   const RawVertices& raw) {
+    glm::mat4 clip_from_vertex(1.0F);
+    if (raw.space == Space::object) {
+        clip_from_vertex =
+            glm::mat4(frame.view.clip_from_world * glm::dmat4(object.world_from_object));
+    }
+    for (std::size_t i = 0; i < raw.vertices.size(); ++i) {
+        const glm::vec4& p = raw.vertices[i].position;
+        if (raw.space == Space::window) {
+            place_window_vertex({p.x, p.y, p.z, p.w}, frame.viewport, draw.screen[i],
+                                draw.homogeneous[i]);
+        } else {
+            const glm::vec4 clip = clip_from_vertex * p;
+            place_clip_vertex({clip.x, clip.y, clip.z, clip.w}, frame.viewport, draw.screen[i],
+                              draw.homogeneous[i]);
+        }
+    }
+}
+
+}  // namespace
+
+void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {
+    const ProgramMaterial material = program_of(object, *frame.scene, maps);
+    const LightSpace space =
+        light_space(light_of(*frame.scene), frame.view, object.world_from_object);
+    const auto* mesh = std::get_if<Mesh>(&object.geometry);
+    draw.facing = facing_of(object.raster.cull);
+    draw.depth = depth_rule(object.raster);
+    draw.shading.space = space;
+    draw.shading.lit = {material.lit_tint, material.lit_base};
+    plan_shading(draw.shading, material, frame.scene->machine, mesh != nullptr);
+    if (mesh != nullptr) {
+        draw.indices = mesh->indices();
+        draw.shading.frames = mesh->frames();
+    } else {
+        const auto& raw = std::get<RawVertices>(object.geometry);
+        draw.own_indices =
+            triangle_indices(raw.topology, static_cast<std::uint32_t>(raw.vertices.size()));
+        draw.indices = draw.own_indices;
+        draw.shading.frames = {};
+    }
+}
+
+void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
+                    const KernelTable& kernels, WorkerPool& pool) {
+    Shading& shading = draw.shading;
+    if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
+        draw.screen.resize(mesh->vertex_count());
+        draw.homogeneous.resize(mesh->vertex_count());
+        transform_mesh(draw, frame, object, *mesh, kernels, pool);
+        mesh_varyings(mesh->frames(), shading.varying_list, shading.space, shading.lit, pool,
+                      shading.varyings);
+    } else {
+        const auto& raw = std::get<RawVertices>(object.geometry);
+        draw.screen.resize(raw.vertices.size());
+        draw.homogeneous.resize(raw.vertices.size());
+        transform_raw(draw, frame, object, raw);
+        raw_varyings(raw.vertices, shading.varying_list, shading.varyings);
+    }
+}
+
+}  // namespace burnish

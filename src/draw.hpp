@@ -1,0 +1,48 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/parallel.hpp"
+#include "geometry/camera.hpp"
+#include "geometry/triangle.hpp"
+#include "models/abp_modified.hpp"
+#include "raster/setup.hpp"
+#include "raster/tile.hpp"
+#include "shade/shading.hpp"
+
+namespace burnish {
+
+/// One object of the scene on its way to the tiles. Its memory is kept for the next frame.
+struct Draw {
+    AlignedVector<ScreenVertex> screen;
+    AlignedVector<HomogeneousVertex> homogeneous;
+    std::vector<std::uint32_t> own_indices;  ///< of raw vertices; a mesh brings its own
+    std::span<const std::uint32_t> indices;
+    Shading shading;
+    Facing facing = Facing::any;
+    DepthRule depth{};
+
+    [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
+    [[nodiscard]] ScreenMesh mesh() const { return {screen, homogeneous, indices}; }
+};
+
+/// What the objects of a frame have in common.
+struct FrameView {
+    const Scene* scene;
+    View view;
+    Viewport viewport;
+};
+
+/// Program, inputs, indices and raster state of `object`; no vertex is touched yet.
+/// Throws Error{bad_program} or {bad_option} for what cannot be drawn.
+void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps);
+
+/// Vertices to the screen, and what they hand to the interpolators.
+void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
+                    const KernelTable& kernels, WorkerPool& pool);
+
+}  // namespace burnish

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <burnish/mesh.hpp>
+#include <burnish/scene.hpp>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "core/parallel.hpp"
+
+namespace burnish {
+
+/// The light and the eye where a draw's vertices are: object space.
+struct LightSpace {
+    glm::vec3 light{0.0F, 0.0F, 1.0F};  ///< position, or the direction towards the light
+    float light_w = 0.0F;               ///< 1: position, 0: direction
+    glm::vec3 eye{0.0F};
+};
+
+/// One float that a vertex hands to the interpolators.
+struct Varying {
+    enum class Source : std::uint8_t {
+        color0,  ///< raw vertices: component `index`
+        color1,
+        uv,            ///< raw vertices: component index % 4 of coordinates index / 4
+        half_tangent,  ///< component `index` of the half vector in the tangent frame, x/2 + 1/2
+        light_tangent,
+        view_tangent,
+        n_dot_l,  ///< max(0, normal . light)
+        lit,      ///< n_dot_l * tint + base
+    };
+    Source source;
+    int index;
+    friend bool operator==(const Varying&, const Varying&) = default;
+};
+
+/// What `lit` multiplies and adds.
+struct LitColors {
+    glm::vec3 tint{1.0F}, base{0.0F};
+};
+
+/// Values of `list` for every vertex, vertex by vertex. Vectors are unit length at the vertex.
+void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
+                   const LightSpace& space, const LitColors& lit, WorkerPool& pool,
+                   std::vector<float>& out);
+void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
+                  std::vector<float>& out);
+
+/// bitangent = w * cross(normal, tangent.xyz)
+glm::vec3 bitangent(const VertexFrame& v);
+
+}  // namespace burnish

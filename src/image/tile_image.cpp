@@ -1,0 +1,110 @@
+#include "image/tile_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernels/packet.hpp"
+
+namespace burnish {
+
+namespace {
+
+struct EncodedPixel {
+    std::byte bytes[16];
+};
+
+/// A colour as the frame stores it, each channel to the nearest code.
+EncodedPixel encode_pixel(const glm::vec4& color, PixelFormat format) {
+    EncodedPixel pixel{};
+    for (int c = 0; c < 4; ++c) {
+        const float x = color[c] > 0.0F ? std::min(color[c], 1.0F) : 0.0F;
+        const auto code = [&](float one) {
+            return static_cast<std::uint32_t>(std::floor(x * one + 0.5F));
+        };
+        std::byte* to = pixel.bytes + static_cast<std::size_t>(c) * (pixel_size(format) / 4);
+        if (format == PixelFormat::rgba8) {
+            *to = static_cast<std::byte>(code(255.0F));
+        } else if (format == PixelFormat::rgba16) {
+            const auto value = static_cast<std::uint16_t>(code(65535.0F));
+            std::memcpy(to, &value, sizeof value);
+        } else {
+            std::memcpy(to, &x, sizeof x);
+        }
+    }
+    return pixel;
+}
+
+void repeat_pixel(std::byte* to, std::size_t count, const EncodedPixel& pixel, std::size_t size) {
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * size, pixel.bytes, size);
+}
+
+/// Calls f(bytes in the tile, bytes in the frame, size) for the parts of a tile that lie in a row
+/// of a block and in the frame. PixelSize is a constant so that the copies are plain moves.
+template <std::size_t PixelSize, class F>
+void for_each_row(int width, int height, std::int32_t left, std::int32_t top, F&& f) {
+    const std::int32_t rows = std::min(kTileSize, height - top),
+                       columns = std::min(kTileSize, width - left);
+    for (std::int32_t y = 0; y < rows; ++y) {
+        for (std::int32_t x = 0; x < columns; x += kBlockSize) {
+            const std::int32_t index =
+                (y / kBlockSize * kBlockSize + x / kBlockSize) * kBlockPixels +
+                y % kBlockSize * kBlockSize;
+            const std::size_t in_tile = static_cast<std::size_t>(index) * PixelSize;
+            const std::size_t in_row = static_cast<std::size_t>(left + x) * PixelSize;
+            if (columns - x >= kBlockSize) {
+                f(in_tile, top + y, in_row, kBlockSize * PixelSize);
+            } else {
+                f(in_tile, top + y, in_row, static_cast<std::size_t>(columns - x) * PixelSize);
+            }
+        }
+    }
+}
+
+template <class F>
+void for_each_row(const Framebuffer& frame, std::int32_t left, std::int32_t top, F&& f) {
+    switch (frame.format()) {
+        case PixelFormat::rgba8:
+            return for_each_row<4>(frame.width(), frame.height(), left, top, f);
+        case PixelFormat::rgba16:
+            return for_each_row<8>(frame.width(), frame.height(), left, top, f);
+        case PixelFormat::rgba32f:
+            return for_each_row<16>(frame.width(), frame.height(), left, top, f);
+    }
+}
+
+}  // namespace
+
+TileImage::TileImage(PixelFormat format)
+    : m_format(format), m_pixel_size(pixel_size(format)), m_pixels(kTilePixels * m_pixel_size) {}
+
+void TileImage::fill(const glm::vec4& color) {
+    repeat_pixel(m_pixels.data(), kTilePixels, encode_pixel(color, m_format), m_pixel_size);
+}
+
+void TileImage::load(const Framebuffer& frame, std::int32_t left, std::int32_t top) {
+    for_each_row(frame, left, top,
+                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, std::size_t n) {
+                     std::memcpy(m_pixels.data() + in_tile, frame.row(y) + in_row, n);
+                 });
+}
+
+void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
+    for_each_row(frame, left, top,
+                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, std::size_t n) {
+                     std::memcpy(frame.row(y) + in_row, m_pixels.data() + in_tile, n);
+                 });
+}
+
+void fill_tile(Framebuffer& frame, std::int32_t left, std::int32_t top, const glm::vec4& color) {
+    const std::size_t size = pixel_size(frame.format());
+    const EncodedPixel pixel = encode_pixel(color, frame.format());
+    const std::int32_t rows = std::min(kTileSize, frame.height() - top);
+    const auto columns = static_cast<std::size_t>(std::min(kTileSize, frame.width() - left));
+    for (std::int32_t y = 0; y < rows; ++y) {
+        repeat_pixel(frame.row(top + y) + static_cast<std::size_t>(left) * size, columns, pixel,
+                     size);
+    }
+}
+
+}  // namespace burnish

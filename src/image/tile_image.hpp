@@ -1,0 +1,34 @@
+#pragma once
+
+#include <burnish/framebuffer.hpp>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/aligned.hpp"
+
+namespace burnish {
+
+/// Pixels of one tile, in the order of kernels/packet.hpp and in the frame's format: a worker's
+/// scratch between the store stage and the frame.
+class TileImage {
+  public:
+    explicit TileImage(PixelFormat format);
+
+    void fill(const glm::vec4& color);
+    /// Takes the tile at (left, top) from the frame, and writes it there; cut to the frame.
+    void load(const Framebuffer& frame, std::int32_t left, std::int32_t top);
+    void resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
+
+    [[nodiscard]] std::byte* pixels() { return m_pixels.data(); }
+    [[nodiscard]] PixelFormat format() const { return m_format; }
+
+  private:
+    PixelFormat m_format;
+    std::size_t m_pixel_size;
+    AlignedVector<std::byte> m_pixels;
+};
+
+/// Sets the pixels of the tile at (left, top) to `color`, cut to the frame.
+void fill_tile(Framebuffer& frame, std::int32_t left, std::int32_t top, const glm::vec4& color);
+
+}  // namespace burnish

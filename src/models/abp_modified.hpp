@@ -1,0 +1,41 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace burnish {
+
+/// Maps that were made from a material's other maps, kept while the material is drawn again.
+class DerivedMaps {
+  public:
+    /// The frame's axis `axis` (0 tangent, 1 bitangent) at every texel of the normal map, times
+    /// `factor`, coded like a normal. Without a normal map: one texel with the undisturbed axis.
+    TexturePtr axis_map(const TexturePtr& normal_map, int axis, float factor);
+
+    /// Forgets what was not asked for since the last call.
+    void drop_unused();
+
+  private:
+    struct Entry {
+        TexturePtr normal_map;
+        int axis;
+        float factor;
+        TexturePtr map;
+        bool used;
+    };
+    std::vector<Entry> m_entries;
+};
+
+/// The modified anisotropic Blinn-Phong model of Kautz and Seidel's talk,
+///   (1 - (h.t / alpha_x)^2 - (h.b / alpha_y)^2) ks light n.l + (kd light n.l + ambient),
+/// as a combiner program: both dots in stage 0, squares and their sum in stage 1, E*F and the final
+/// combiner for the rest; with four stages or more, ks map, diffuse term and ambient light get
+/// stages of their own.
+/// @param light  colour times intensity
+/// Throws Error{bad_program} that names the resource that `machine` is short of.
+ProgramMaterial compile_abp_modified(const Material& material, const Machine& machine,
+                                     const glm::vec3& light, const glm::vec3& ambient,
+                                     DerivedMaps& maps);
+
+}  // namespace burnish

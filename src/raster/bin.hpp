@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/triangle.hpp"
+#include "raster/setup.hpp"
+
+namespace burnish {
+
+/// What became of the triangles of a chunk.
+struct BinCounts {
+    std::uint64_t submitted = 0;
+    std::uint64_t nonfinite = 0;
+    std::uint64_t degenerate = 0;
+    std::uint64_t clipped = 0;
+    std::uint64_t binned = 0;
+};
+
+/// Consecutive triangles of one draw, set up and sorted into the tiles that they touch. Chunks are
+/// filled in parallel and read in order, so no image depends on the schedule. Memory is kept for
+/// the next frame.
+class Chunk {
+  public:
+    /// Triangles `first` .. `last` - 1 of `mesh`.
+    void fill(const ScreenMesh& mesh, std::uint32_t draw, Facing facing, std::size_t first,
+              std::size_t last, const Viewport& viewport, FrameSize frame);
+
+    /// Triangles that touch the tile at (x, y), in submission order: indices into `triangles()`.
+    [[nodiscard]] std::span<const std::uint32_t> tile(std::int32_t x, std::int32_t y) const;
+    [[nodiscard]] const std::vector<SetupTriangle>& triangles() const { return m_triangles; }
+    [[nodiscard]] const BinCounts& counts() const { return m_counts; }
+    /// Bytes in use.
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    void add(const ScreenMesh& mesh, const std::uint32_t (&vertex)[3], std::uint32_t draw,
+             Facing facing, const Viewport& viewport, FrameSize frame);
+    void add_clipped(const ScreenMesh& mesh, SetupTriangle triangle, Facing facing,
+                     const Viewport& viewport, FrameSize frame);
+    SetupResult add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
+                              const ScreenVertex& v2, SetupTriangle triangle, Facing facing,
+                              FrameSize frame);
+    void sort_into_tiles(FrameSize frame);
+
+    struct TileEntry {
+        std::uint16_t x, y;
+        std::uint32_t triangle;
+    };
+
+    std::vector<SetupTriangle> m_triangles;
+    std::vector<TileEntry> m_unsorted;
+    std::vector<std::uint32_t> m_first;    ///< per tile of the rectangle, one more at the end
+    std::vector<std::uint32_t> m_entries;  ///< triangles, tile by tile
+    std::int32_t m_x0 = 0, m_y0 = 0, m_width = 0, m_height = 0;  ///< rectangle of touched tiles
+    BinCounts m_counts;
+};
+
+/// Triangles per chunk, so that the lists of a worst case (every triangle in every tile) stay
+/// within some 64 MB.
+std::size_t chunk_size(FrameSize frame);
+
+}  // namespace burnish

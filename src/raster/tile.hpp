@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "kernels/kernel_table.hpp"
+#include "raster/bin.hpp"
+
+namespace burnish {
+
+/// What a fragment of a draw has to pass, as the kernels take it.
+struct DepthRule {
+    std::uint8_t pass_less, pass_equal, pass_greater, write;
+};
+
+/// Depth and visibility of one tile; a worker's scratch. Pixels in the order of kernels/packet.hpp.
+class TileVisibility {
+  public:
+    TileVisibility();
+
+    /// Starts tile (x, y): nothing visible, depth 1 everywhere or, if `depth` is not null, as saved
+    /// by an earlier round (kTilePixels floats).
+    void begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth);
+
+    /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
+    void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);
+
+    [[nodiscard]] bool empty() const { return m_triangles.empty(); }
+    /// Triangles drawn so far; the visibility buffer holds indices into these.
+    [[nodiscard]] std::span<const SetupTriangle* const> triangles() const { return m_triangles; }
+    [[nodiscard]] const float* depth() const { return m_depth.data(); }
+    [[nodiscard]] std::int32_t left() const { return m_tile_x * kTileSize; }
+    [[nodiscard]] std::int32_t top() const { return m_tile_y * kTileSize; }
+
+    /// Distinct triangles of a block, pixels outside the frame left out.
+    void match_block(int block, const KernelTable& kernels, BlockTriangles& out) const;
+
+  private:
+    std::int32_t m_tile_x = 0, m_tile_y = 0;
+    FrameSize m_frame{};
+    AlignedVector<float> m_depth, m_block_far;
+    AlignedVector<std::uint32_t> m_id;
+    std::vector<const SetupTriangle*> m_triangles;
+};
+
+}  // namespace burnish

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "geometry/varyings.hpp"
+#include "kernels/kernel_table.hpp"
+#include "machine/bind.hpp"
+
+namespace burnish {
+
+/// Attributes that a mesh's vertices bring themselves: uv and, where light meets the tangent frame
+/// at every pixel, T, B, N and the position.
+inline constexpr int kUvAttributes = 2;
+inline constexpr int kFrameAttributes = 12;
+/// All that can be interpolated: the frame, or eight colours and sixteen coordinates; and `lit`.
+inline constexpr int kMaxInterpolated = 32;
+/// With the three vectors and n.l that the lighting stage adds.
+inline constexpr int kMaxAttributes = kMaxInterpolated + 10;
+
+/// A register plane that nothing feeds.
+struct ClearCtx {
+    int plane;
+};
+
+/// Fills registers of a packet before the program runs.
+using InputOp = std::variant<ClearCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx>;
+
+/// How one object's fragments get their colour: what its triangles interpolate, what fills the
+/// registers, the program.
+struct Shading {
+    std::span<const VertexFrame> frames;  ///< of a mesh, else empty
+    LightSpace space;
+    LitColors lit;
+    int frame_attributes = 0;           ///< 0, kUvAttributes, or with kFrameAttributes
+    std::vector<Varying> varying_list;  ///< the attributes after those of the frames
+    std::vector<float> varyings;        ///< their values, vertex by vertex
+    std::vector<InputOp> inputs;
+    BoundProgram program;
+    std::vector<TexturePtr> textures;  ///< keeps the texels alive
+
+    [[nodiscard]] int interpolated() const {
+        return frame_attributes + static_cast<int>(varying_list.size());
+    }
+};
+
+/// Binds the program and plans its inputs. `space` and `lit` are set before, `frames` and
+/// `varyings` afterwards. Throws Error{bad_program} for what `machine` cannot run.
+void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
+                  bool is_mesh);
+
+/// Writes the shading.interpolated() attributes of one vertex.
+void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out);
+
+/// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
+/// constant planes are in place.
+void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
+                  StoreFormat format, void* tile, Packet& packet);
+
+}  // namespace burnish
