@@ -60,23 +60,26 @@ class Noise {
     double at(int x, int y) const {
         const double u = (x + 0.5) * m_u / m_size;
         const double v = (y + 0.5) * m_v / m_size;
-        const int iu = static_cast<int>(u);
-        const int iv = static_cast<int>(v);
-        const double fu = ease(u - iu);
-        const double fv = ease(v - iv);
-        const double top = value(iu, iv) + fu * (value(iu + 1, iv) - value(iu, iv));
-        const double bottom = value(iu, iv + 1) + fu * (value(iu + 1, iv + 1) - value(iu, iv + 1));
-        return top + fv * (bottom - top);
+        const int row = static_cast<int>(v);
+        const double top = row_at(u, static_cast<std::uint32_t>(row % m_v));
+        const double bottom = row_at(u, static_cast<std::uint32_t>((row + 1) % m_v));
+        return top + ease(v - row) * (bottom - top);
     }
 
   private:
     static int cells(int size, double texels) {
         return std::clamp(static_cast<int>(kDesignSize / texels + 0.5), 1, size);
     }
-    double value(int iu, int iv) const {
-        const auto u = static_cast<std::uint32_t>(iu % m_u);
-        const auto v = static_cast<std::uint32_t>(iv % m_v);
-        return 2.0 * unit_interval(mix(mix(m_seed, u), v)) - 1.0;
+    /// Rows start at different places, lest cells line up in columns.
+    double row_at(double u, std::uint32_t row) const {
+        const std::uint32_t state = mix(m_seed, row);
+        const double shifted = u + unit_interval(state) * m_u;
+        const int cell = static_cast<int>(shifted);
+        const double left = value(state, cell);
+        return left + ease(shifted - cell) * (value(state, cell + 1) - left);
+    }
+    double value(std::uint32_t state, int cell) const {
+        return 2.0 * unit_interval(mix(state, static_cast<std::uint32_t>(cell % m_u) + 1)) - 1.0;
     }
 
     std::uint32_t m_seed;
