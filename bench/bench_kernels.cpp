@@ -1,0 +1,456 @@
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/cpu.hpp"
+#include "tests/kernel_packet.hpp"
+
+/// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
+/// compared with the reference before anything is timed. Items are fragments, vertices for
+/// `transform` and covered pixels for `rasterize`.
+namespace burnish {
+namespace {
+
+template <class Ctx>
+using PacketStage = void (*KernelTable::*)(Packet&, const Ctx&) noexcept;
+
+/// Registers `run` for each table; `difference` is empty where the table is right.
+void add(const std::string& name, std::int64_t items,
+         const std::function<std::string(const KernelTable&)>& difference,
+         const std::function<void(const KernelTable&, benchmark::State&)>& run) {
+    for (const KernelTable* table : available_tables()) {
+        const auto body = [=](benchmark::State& state) {
+            const std::string text = difference(*table);
+            if (!text.empty()) return state.SkipWithError(("not the reference: " + text).c_str());
+            run(*table, state);
+            state.SetItemsProcessed(state.iterations() * items);
+        };
+        benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
+    }
+}
+
+template <class Ctx>
+void add_packet_stage(const std::string& name, PacketStage<Ctx> stage, const PacketMemory& before,
+                      const Ctx& ctx, const Written& written) {
+    add(
+        name, before.count,
+        [=](const KernelTable& table) {
+            return stage_difference(table, stage, before, ctx, written);
+        },
+        [=](const KernelTable& table, benchmark::State& state) {
+            PacketMemory memory = before;
+            Packet packet = memory.view();
+            for (auto _ : state) {
+                (table.*stage)(packet, ctx);
+                benchmark::ClobberMemory();
+            }
+        });
+}
+
+void fill_planes(PacketMemory& packet, Random& random, int count, int low, int high) {
+    for (int k = 0; k < count; ++k)
+        for (int i = 0; i < kPacketSize; ++i)
+            packet.plane(k)[i] = static_cast<std::int16_t>(random.between(low, high));
+}
+
+// ---- before shading
+
+struct Grid {
+    static constexpr int kCount = 4096;
+    AlignedVector<float> x, y, z;
+    AlignedVector<ScreenVertex> screen{kCount};
+    AlignedVector<HomogeneousVertex> homogeneous{kCount};
+
+    Grid() {
+        Random random(1);
+        for (AlignedVector<float>* v : {&x, &y, &z})
+            for (int i = 0; i < kCount; ++i) v->push_back(random.real(-1.0F, 1.0F));
+    }
+    TransformCtx context() {
+        // 60 degrees, 3 units away, 1024 x 768, 1/16 pixel.
+        return {x.data(),
+                y.data(),
+                z.data(),
+                kCount,
+                {1.3F, 0, 0, 0, 0, 1.73F, 0, 0, 0, 0, -1.02F, -1, 0, 0, 2.86F, 3},
+                {512, 384, 1024, 768, 16, 0.5F},
+                screen.data(),
+                homogeneous.data()};
+    }
+};
+
+void add_transform() {
+    static Grid grid;
+    static Grid reference;
+    add(
+        "transform", Grid::kCount,
+        [](const KernelTable& table) -> std::string {
+            table.transform(grid.context());
+            table_reference().transform(reference.context());
+            const auto bytes = sizeof(ScreenVertex) * Grid::kCount;
+            const bool same = std::memcmp(grid.screen.data(), reference.screen.data(), bytes) == 0;
+            return same ? "" : "screen vertices";
+        },
+        [](const KernelTable& table, benchmark::State& state) {
+            const TransformCtx ctx = grid.context();
+            for (auto _ : state) {
+                table.transform(ctx);
+                benchmark::ClobberMemory();
+            }
+        });
+}
+
+struct Tile {
+    AlignedVector<float> depth = AlignedVector<float>(kTilePixels, 1.0F);
+    AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels, kNoTriangle);
+    AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
+
+    void draw(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
+        table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
+                         id.data(), block_far.data()});
+    }
+};
+
+/// Adds the edge a * x + b * y >= limit (with `open`: > limit), x and y in pixels.
+void add_edge(TileTriangle& t, int a, int b, int limit, bool open) {
+    // At pixel centres, in 1/256 pixel; a and b are lengths in pixels.
+    t.a[t.edges] = 256 * a;
+    t.b[t.edges] = 256 * b;
+    t.c[t.edges] = 128 * a + 128 * b - 256 * limit - (open ? 1 : 0);
+    ++t.edges;
+}
+
+/// Upper left and lower right halves of squares of `side` pixels all over the tile, at a slope,
+/// depth test less or equal so that drawing them again costs the same.
+std::vector<TileTriangle> squares(int side) {
+    std::vector<TileTriangle> triangles;
+    for (int y = 0; y < kTileSize; y += side) {
+        for (int x = 0; x < kTileSize; x += side) {
+            TileTriangle t{};
+            t.x0 = x;
+            t.y0 = y;
+            t.x1 = x + side - 1;
+            t.y1 = y + side - 1;
+            t.z = 0.5F;
+            t.zx = t.zy = 0.001F;
+            t.z_high = 1.0F;
+            t.pass_less = t.pass_equal = t.depth_write = 1;
+            TileTriangle upper = t;
+            upper.id = static_cast<std::uint32_t>(triangles.size());
+            add_edge(upper, side, 0, side * x, false);
+            add_edge(upper, 0, side, side * y, false);
+            add_edge(upper, -side, -side, -side * (x + y + side), true);
+            triangles.push_back(upper);
+            TileTriangle lower = t;
+            lower.id = upper.id + 1;
+            add_edge(lower, side, side, side * (x + y + side), false);
+            add_edge(lower, -side, 0, -side * (x + side), true);
+            add_edge(lower, 0, -side, -side * (y + side), true);
+            triangles.push_back(lower);
+        }
+    }
+    return triangles;
+}
+
+void add_rasterize() {
+    for (const int side : {4, 16, 64}) {
+        const std::vector<TileTriangle> triangles = squares(side);
+        add(
+            "rasterize/squares_" + std::to_string(side), kTilePixels,
+            [=](const KernelTable& table) -> std::string {
+                Tile got;
+                Tile want;
+                got.draw(table, triangles);
+                want.draw(table_reference(), triangles);
+                if (std::count(want.id.begin(), want.id.end(), kNoTriangle) != 0) return "holes";
+                return got.id == want.id && got.depth == want.depth ? "" : "ids or depths";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                Tile tile;
+                for (auto _ : state) {
+                    tile.draw(table, triangles);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+void add_match() {
+    for (const int kinds : {1, 2, 8}) {
+        AlignedVector<std::uint32_t> ids(kBlockPixels);
+        for (int i = 0; i < kBlockPixels; ++i)
+            ids[static_cast<std::size_t>(i)] =
+                static_cast<std::uint32_t>((i % 8 + i / 8) * kinds / 15);
+        add(
+            "match/triangles_" + std::to_string(kinds), kBlockPixels,
+            [=](const KernelTable& table) -> std::string {
+                BlockTriangles got{};
+                BlockTriangles want{};
+                table.match({ids.data(), &got});
+                table_reference().match({ids.data(), &want});
+                bool same = got.count == want.count;
+                for (int k = 0; same && k < want.count; ++k)
+                    same = got.id[k] == want.id[k] && got.mask[k] == want.mask[k];
+                return same ? "" : "triangles of a block";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                BlockTriangles out{};
+                for (auto _ : state) {
+                    table.match({ids.data(), &out});
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+// ---- from triangles to registers
+
+void add_attributes() {
+    constexpr int kAttributes = 14;  // tangent frame, position, texture coordinates
+    static std::vector<AttributePlane> planes;
+    static std::array<std::vector<Run>, 3> runs;
+    Random random(2);
+    for (int k = 0; k <= kAttributes; ++k)
+        planes.push_back(
+            {random.real(0.5F, 1.0F), random.real(0.0F, 0.01F), random.real(0.0F, 0.01F)});
+    Written written;
+    for (int k = 0; k < kAttributes; ++k) written.attributes.push_back(k);
+    const std::array lengths{4, 16, 64};
+    for (std::size_t v = 0; v < lengths.size(); ++v) {
+        const int length = lengths[v];
+        for (int first = 0; first < kPacketSize; first += length)
+            runs[v].push_back({planes.data(), first, length, 100, 200});
+        add_packet_stage(
+            "attributes/runs_of_" + std::to_string(length), &KernelTable::attributes,
+            PacketMemory(),
+            AttributesCtx{runs[v].data(), static_cast<int>(runs[v].size()), kAttributes}, written);
+    }
+}
+
+void add_lighting_and_encode() {
+    PacketMemory packet;
+    Random random(3);
+    for (int k = 0; k < 12; ++k)
+        for (int i = 0; i < kPacketSize; ++i) packet.attribute(k)[i] = random.real(-1.0F, 1.0F);
+    LightingCtx ctx{0, {3, 4, 5}, 1.0F, {0, 0, 6}, 12, -1, -1, -1};
+    add_packet_stage("lighting/half_vector", &KernelTable::lighting, packet, ctx,
+                     {.attributes = {12, 13, 14}});
+    ctx = {0, {3, 4, 5}, 1.0F, {0, 0, 6}, 12, 15, 18, 21};
+    add_packet_stage("lighting/all", &KernelTable::lighting, packet, ctx,
+                     {.attributes = {12, 13, 14, 15, 16, 17, 18, 19, 20, 21}});
+    add_packet_stage("encode_nine_bit", &KernelTable::encode_nine_bit, packet, EncodeCtx{0, 0},
+                     {.planes = {0}});
+    add_packet_stage("encode_wide", &KernelTable::encode_wide, packet, EncodeCtx{0, 0},
+                     {.planes = {0}});
+}
+
+// ---- texels
+
+constexpr int kTexture = 256;                         // texels, both ways
+constexpr std::int32_t kPitch = 4 * (kTexture + 16);  // bytes
+
+void add_texels() {
+    static std::vector<std::int8_t> texels;
+    Random random(4);
+    texels.resize(static_cast<std::size_t>(kPitch * kTexture));
+    for (std::int8_t& t : texels) t = static_cast<std::int8_t>(random.between(-128, 127));
+    PacketMemory packet;
+    // A quarter turn of the texture at one texel per pixel, as four blocks see it.
+    for (int i = 0; i < kPacketSize; ++i) {
+        const auto x = static_cast<float>(i / 64 * 8 + i % 8);
+        const auto y = static_cast<float>(i % 64 / 8);
+        packet.attribute(0)[i] = 0.3F + (x * 0.8F - y * 0.6F) / static_cast<float>(kTexture);
+        packet.attribute(1)[i] = 0.9F + (x * 0.6F + y * 0.8F) / static_cast<float>(kTexture);
+        packet.attribute(2)[i] = 1.0F + 0.001F * x;
+    }
+    AddressCtx ctx{0, 1, -1, kTexture, kTexture, kPitch, AddressMode::repeat, AddressMode::repeat,
+                   1};
+    const Written addresses{.addresses = true};
+    add_packet_stage("address/repeat", &KernelTable::address, packet, ctx, addresses);
+    Packet view = packet.view();
+    table_reference().address(view, ctx);
+    ctx.q = 2;
+    add_packet_stage("address/repeat_over_q", &KernelTable::address, packet, ctx, addresses);
+    ctx = {0,
+           1,
+           -1,
+           kTexture,
+           kTexture,
+           kPitch,
+           AddressMode::clamp_to_edge,
+           AddressMode::clamp_to_edge,
+           1};
+    add_packet_stage("address/clamp", &KernelTable::address, packet, ctx, addresses);
+
+    const FetchCtx fetch{texels.data(), 0};
+    const Written fetched{.planes = {0, 1, 2, 3}};
+    add_packet_stage("fetch_nine_bit", &KernelTable::fetch_nine_bit, packet, fetch, fetched);
+    add_packet_stage("fetch_wide", &KernelTable::fetch_wide, packet, fetch, fetched);
+}
+
+// ---- combiners
+
+Operand operand(int first, int mapping) {
+    return {{static_cast<std::int16_t>(first), static_cast<std::int16_t>(first + 1),
+             static_cast<std::int16_t>(first + 2)},
+            static_cast<std::uint8_t>(mapping)};
+}
+
+constexpr int kTrash = 30;
+
+/// Inputs in planes 0 .. 12, outputs from 14 on.
+PortionCtx portion(ProductKind ab, ProductKind cd, ThirdKind third) {
+    constexpr std::int16_t t = kTrash;
+    PortionCtx ctx{operand(0, 6),
+                   operand(3, 6),
+                   operand(6, 6),
+                   operand(9, 6),
+                   ab,
+                   cd,
+                   third,
+                   OutputScale::one,
+                   0,
+                   0,
+                   3,
+                   12,
+                   {14, 15, 16},
+                   {t, t, t},
+                   {t, t, t}};
+    for (int c = 0; c < 3; ++c) {
+        const auto plane = static_cast<std::int16_t>(17 + c);
+        if (third != ThirdKind::none)
+            ctx.third_out[c] = plane;
+        else if (cd != ProductKind::none)
+            ctx.cd_out[c] = plane;
+    }
+    return ctx;
+}
+
+void add_portions(const std::string& name, PacketStage<PortionCtx> stage,
+                  const PacketMemory& packet) {
+    const auto add_portion = [&](const char* variant, const PortionCtx& ctx, Written written) {
+        written.trash_plane = kTrash;
+        add_packet_stage(name + "/" + variant, stage, packet, ctx, written);
+    };
+    const Written first{.planes = {14, 15, 16}};
+    const Written both{.planes = {14, 15, 16, 17, 18, 19}};
+    add_portion("multiply", portion(ProductKind::multiply, ProductKind::none, ThirdKind::none),
+                first);
+    PortionCtx bump = portion(ProductKind::dot, ProductKind::none, ThirdKind::none);
+    bump.a.mapping = bump.b.mapping = 2;
+    bump.components = 1;
+    add_portion("dot_of_expanded", bump, {.planes = {14}});
+    PortionCtx scalar = portion(ProductKind::multiply, ProductKind::none, ThirdKind::none);
+    scalar.components = 1;
+    scalar.scale = OutputScale::two;
+    add_portion("alpha_scale_two", scalar, {.planes = {14}});
+    add_portion("two_products",
+                portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::none), both);
+    add_portion("sum", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum), both);
+    add_portion("mux", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::mux), both);
+}
+
+void add_final(const std::string& name, PacketStage<FinalCtx> stage, const PacketMemory& packet) {
+    FinalCtx ctx{};
+    ctx.a = operand(0, 0);
+    ctx.b = operand(3, 0);
+    ctx.c = operand(6, 0);
+    ctx.d = operand(9, 0);
+    ctx.e = ctx.b;
+    ctx.f = ctx.c;
+    ctx.g = operand(12, 0);
+    for (int c = 0; c < 3; ++c) {
+        ctx.spare0[c] = static_cast<std::int16_t>(c);
+        ctx.secondary[c] = static_cast<std::int16_t>(3 + c);
+    }
+    for (int c = 0; c < 4; ++c) ctx.out[c] = static_cast<std::int16_t>(20 + c);
+    const Written written{.planes = {20, 21, 22, 23}};
+    add_packet_stage(name + "/blend", stage, packet, ctx, written);
+    ctx.b.plane[0] = FinalCtx::kColorSum;
+    ctx.d.plane[0] = FinalCtx::kFinalProduct;
+    ctx.uses_color_sum = ctx.uses_final_product = 1;
+    add_packet_stage(name + "/sum_and_product", stage, packet, ctx, written);
+}
+
+void add_store(const std::string& name,
+               void (*KernelTable::*stage)(Packet&, const StoreCtx&) noexcept,
+               const PacketMemory& before) {
+    const std::array<const char*, 3> formats{"rgba8", "rgba16", "rgba32f"};
+    for (std::size_t f = 0; f < formats.size(); ++f) {
+        const auto format = static_cast<StoreFormat>(f);
+        const auto store = [=](const KernelTable& table, AlignedVector<std::uint8_t>& tile) {
+            PacketMemory memory = before;
+            Packet packet = memory.view();
+            (table.*stage)(packet, {{0, 1, 2, 3}, format, tile.data()});
+        };
+        add(
+            name + "/" + formats[f], before.count,
+            [=](const KernelTable& table) -> std::string {
+                AlignedVector<std::uint8_t> got(std::size_t{16} * kTilePixels);
+                AlignedVector<std::uint8_t> want = got;
+                store(table, got);
+                store(table_reference(), want);
+                return got == want ? "" : "pixels";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                AlignedVector<std::uint8_t> tile(std::size_t{16} * kTilePixels);
+                PacketMemory memory = before;
+                Packet packet = memory.view();
+                const StoreCtx ctx{{0, 1, 2, 3}, format, tile.data()};
+                for (auto _ : state) {
+                    (table.*stage)(packet, ctx);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+void add_models() {
+    Random random(5);
+    PacketMemory nine_bit;
+    fill_planes(nine_bit, random, 13, 0, 255);
+    PacketMemory wide;
+    fill_planes(wide, random, 13, 0, 16384);
+    add_portions("portion_nine_bit", &KernelTable::portion_nine_bit, nine_bit);
+    add_portions("portion_wide", &KernelTable::portion_wide, wide);
+    add_final("final_nine_bit", &KernelTable::final_nine_bit, nine_bit);
+    add_final("final_wide", &KernelTable::final_wide, wide);
+    add_store("store_nine_bit", &KernelTable::store_nine_bit, nine_bit);
+    add_store("store_wide", &KernelTable::store_wide, wide);
+}
+
+std::string cpu_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+}  // namespace
+}  // namespace burnish
+
+int main(int argc, char** argv) {
+    using namespace burnish;
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    std::string isas;
+    for (const KernelTable* table : available_tables())
+        isas += (isas.empty() ? "" : ", ") + std::string(table->isa);
+    benchmark::AddCustomContext("isa", isas);
+    benchmark::AddCustomContext("cpu", cpu_name());
+    add_transform();
+    add_rasterize();
+    add_match();
+    add_attributes();
+    add_lighting_and_encode();
+    add_texels();
+    add_models();
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
