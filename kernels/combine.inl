@@ -1,10 +1,10 @@
-/// round(a * b / 255), exactly, for |a|, |b| <= 256; tests/kernels_vs_reference.cpp tries all
-/// 513^2. With p = a b, h = (p + 128) >> 8 and l = (p + 128) & 255 the quotient is h + ((h + l) >>
-/// 8), and one less inside for negative p.
+/// round(a * b / 255), exactly, for |a|, |b| <= 256; a test tries all 513^2.
+/// With p = a b, h = (p + 128) >> 8 and l = (p + 128) & 255 the quotient is h + ((h + l) >> 8), and
+/// one less inside the bracket for negative p.
 I16 product_255(I16 a, I16 b) {
     const I16 h = mul_round(a << 6, b << 1);
     const I16 l = (a * b + I16(128)) & I16(255);
-    return h + ((h + (h >> 15) + l) >> 8);
+    return h + ((h + ((a ^ b) >> 15) + l) >> 8);
 }
 
 /// The nine-bit model: one 16-bit lane holds every intermediate value (|x| <= 4 * 1542).
@@ -84,8 +84,8 @@ struct Wide {
         }
         I16 operator()(I16 e) const {
             const I16 shifted = min(max(e, low), high) + offset;
-            const I16 doubled = ::xsimd::sadd(shifted, shifted & twice);
-            return ::xsimd::ssub(doubled ^ negate, negate);
+            const I16 turned = ::xsimd::ssub(shifted ^ negate, negate);
+            return ::xsimd::sadd(turned, turned & twice);
         }
         I16 low, high, offset, twice, negate;
     };
