@@ -31,7 +31,7 @@ set(std "<[a-z0-9_]+>")  # one word in brackets: the standard library
 set(public "<burnish/[a-z0-9_]+\\.hpp>")
 
 # Each library behind one door.
-rule("^src/(app|core|geometry|image|include|machine|mesh|models|raster|scene|shade|pipeline)"
+rule("^src/(app|core|geometry|image|include|machine|mesh|models|raster|scene|shade|pipeline|draw)"
   DENY "<(OpenMesh|OpenImageIO|toml\\+\\+)/" "only src/io may see file formats")
 rule("^src/io/([^i]|i[^m])" DENY "<OpenImageIO/" "only src/io/image_io.cpp may")
 rule("^src/io/image_io\\.cpp" DENY "<fmt/" "OpenImageIO bundles another fmt")
@@ -60,7 +60,7 @@ rule("^src/io/" DENY "\"(app|geometry|kernels|pipeline|raster|shade)[/.]" "files
 rule("^src/geometry/" DENY "\"(app|io|pipeline|raster|shade)[/.]" "later stage")
 rule("^src/raster/" DENY "\"(app|io|pipeline|shade)[/.]" "only pipeline.cpp knows both")
 rule("^src/shade/" DENY "\"(app|io|pipeline|raster)[/.]" "only pipeline.cpp knows both")
-rule("^src/pipeline" DENY "\"(app|io)/" "later stage")
+rule("^src/(pipeline|draw)" DENY "\"(app|io)/" "later stage")
 rule("." DENY "\"\\.\\.?/" "paths start at src/ or at the top")
 
 get_property(violations GLOBAL PROPERTY violations)

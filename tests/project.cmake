@@ -27,9 +27,13 @@ burnish_test_symbols(test_contract_headers)
 add_test(NAME includes COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_includes.cmake)
 add_test(NAME elementary_functions
   COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_elementary_functions.cmake)
+set(sanitize "")
+if(BURNISH_SANITIZE)
+  set(sanitize -fsanitize=${BURNISH_SANITIZE})
+endif()
 add_test(NAME package
   COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
     -DCOMPILER=${CMAKE_CXX_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DBINDIR=${CMAKE_INSTALL_BINDIR}
-    "-DFLAGS=$<$<BOOL:${BURNISH_SANITIZE}>:-fsanitize=${BURNISH_SANITIZE}>"
+    -DFLAGS=${sanitize}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/check_package.cmake)
 set_tests_properties(package PROPERTIES TIMEOUT 300)
