@@ -299,7 +299,7 @@ TEST_F(Command, BakedMapsGiveTheSamePictureAsTheGenerator) {
         return "[[textures]]\nname = \"t\"\n" + source_of_t + "[[textures]]\nname = \"b\"\n" +
                source_of_b +
                "[[materials]]\nname = \"steel\"\ntangent_map = \"t\"\nbitangent_map = \"b\"\n"
-               "map_scale = 0.125\n";
+               "map_scale = 0.25\n";
     };
     ASSERT_EQ(run("bake brushed --size 16 --seed 5 -o steel").code, 0);
     write_scene("made.toml",

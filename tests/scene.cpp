@@ -362,7 +362,7 @@ depth_write = false
     EXPECT_EQ(brass.alpha_x, 0.25F);
     EXPECT_EQ(brass.alpha_y, 1.0F);
     EXPECT_NE(brass.tangent_map, nullptr);
-    EXPECT_EQ(brass.map_scale, 0.125F) << "known for generated maps";
+    EXPECT_EQ(brass.map_scale, 0.25F) << "known for generated maps";
     EXPECT_EQ(brass.specular_map, brass.tangent_map);
 }
 

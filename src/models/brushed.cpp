@@ -15,8 +15,8 @@ namespace {
 constexpr double kDesignSize = 512.0;
 
 /// Widths of the lobe along and across the marks, and how far they stray, relative.
-constexpr double kAlphaAlong = 0.15;
-constexpr double kAlphaAcross = 0.50;
+constexpr double kAlphaAlong = 0.29;
+constexpr double kAlphaAcross = 0.75;
 constexpr double kAlongSpread = 0.12;
 constexpr double kAcrossSpread = 0.25;
 
@@ -259,8 +259,8 @@ Material brushed_steel(std::uint32_t seed) {
     const Sampler sampler;
     Material steel;
     steel.name = "brushed-steel";
-    steel.kd = glm::vec3(0.16F, 0.16F, 0.165F);
-    steel.ks = glm::vec3(0.85F);
+    steel.kd = glm::vec3(0.26F, 0.26F, 0.27F);
+    steel.ks = glm::vec3(0.95F);
     steel.alpha_x = static_cast<float>(kAlphaAlong);
     steel.alpha_y = static_cast<float>(kAlphaAcross);
     steel.normal_map = std::make_shared<const Texture>(maps.normal, sampler);

@@ -9,7 +9,7 @@ namespace burnish {
 ///
 /// The brush ran along the texture's u axis, so the tangent t lies along the marks and the
 /// bitangent across them. Facets tilt across the marks much more than along them: the lobe is
-/// narrow along t (alpha_x about 0.15) and wide along b (alpha_y about 0.5), and the highlight is
+/// narrow along t (alpha_x about 0.3) and wide along b (alpha_y about 0.75), and the highlight is
 /// drawn out across the marks. (KHR_materials_anisotropy names the direction of the larger
 /// roughness instead, which is our b.) Both widths vary from texel to texel.
 ///
