@@ -63,6 +63,27 @@ struct Transformed {
     }
 };
 
+void check_transform(const KernelTable& table, const TransformCtx& ctx, const std::string& where) {
+    Transformed got, want;
+    got.run(table, ctx);
+    want.run(table_reference(), ctx);
+    for (std::size_t i = 0; i < got.screen.size(); ++i) {
+        const ScreenVertex& g = got.screen[i];
+        const ScreenVertex& w = want.screen[i];
+        const HomogeneousVertex& gh = got.homogeneous[i];
+        const HomogeneousVertex& wh = want.homogeneous[i];
+        ASSERT_TRUE(g.x == w.x && g.y == w.y && same_bits(g.z, w.z) && g.outcode == w.outcode)
+            << table.isa << " transform, " << where << ", vertex " << i << " of " << ctx.count
+            << ": got " << g.x << ' ' << g.y << ' ' << g.z << ' ' << g.outcode << ", want " << w.x
+            << ' ' << w.y << ' ' << w.z << ' ' << w.outcode;
+        ASSERT_TRUE(same_bits(gh.x, wh.x) && same_bits(gh.y, wh.y) && same_bits(gh.z, wh.z) &&
+                    same_bits(gh.w, wh.w))
+            << table.isa << " transform, " << where << ", homogeneous vertex " << i << " of "
+            << ctx.count << ": got " << gh.x << ' ' << gh.y << ' ' << gh.z << ' ' << gh.w
+            << ", want " << wh.x << ' ' << wh.y << ' ' << wh.z << ' ' << wh.w;
+    }
+}
+
 TEST_P(KernelTest, TransformOfAnyVertices) {
     for (unsigned seed = 0; seed < 4000; ++seed) {
         Random random(seed);
@@ -75,24 +96,37 @@ TEST_P(KernelTest, TransformOfAnyVertices) {
         const auto subpixels = static_cast<float>(16 << random.below(5));
         ctx.viewport = {width / 2, height / 2, width,
                         height,    subpixels,  random.chance(2) ? 0.5F : 0.0F};
-        Transformed got, want;
-        got.run(table(), ctx);
-        want.run(table_reference(), ctx);
-        for (std::size_t i = 0; i < got.screen.size(); ++i) {
-            const ScreenVertex& g = got.screen[i];
-            const ScreenVertex& w = want.screen[i];
-            const HomogeneousVertex& gh = got.homogeneous[i];
-            const HomogeneousVertex& wh = want.homogeneous[i];
-            ASSERT_TRUE(g.x == w.x && g.y == w.y && same_bits(g.z, w.z) && g.outcode == w.outcode)
-                << name("transform") << ", seed " << seed << ", vertex " << i << " of " << count
-                << ": got " << g.x << ' ' << g.y << ' ' << g.z << ' ' << g.outcode << ", want "
-                << w.x << ' ' << w.y << ' ' << w.z << ' ' << w.outcode;
-            ASSERT_TRUE(same_bits(gh.x, wh.x) && same_bits(gh.y, wh.y) && same_bits(gh.z, wh.z) &&
-                        same_bits(gh.w, wh.w))
-                << name("transform") << ", seed " << seed << ", homogeneous vertex " << i << " of "
-                << count << ": got " << gh.x << ' ' << gh.y << ' ' << gh.z << ' ' << gh.w
-                << ", want " << wh.x << ' ' << wh.y << ' ' << wh.z << ' ' << wh.w;
+        ASSERT_NO_FATAL_FAILURE(check_transform(table(), ctx, "seed " + std::to_string(seed)));
+    }
+}
+
+// Every coordinate at each border of the view and of the guard band, and next to it. Half the width
+// is one pixel, so window x = x + 1 without rounding.
+TEST_P(KernelTest, TransformAtTheBordersOfView) {
+    std::vector<float> borders;
+    for (const float border : {0.0F, 1.0F, 2.0F, kGuardLow, kGuardHigh}) {
+        for (const float window : {border, std::nextafter(border, kInfinity),
+                                   std::nextafter(border, -kInfinity), border + 1, border - 1})
+            borders.push_back(window);
+    }
+    const auto n = static_cast<int>(borders.size());
+    AlignedVector<float> x(std::size_t{32}, 0.0F), y = x, z = x;
+    for (int i = 0; i < n * n * 4; i += n) {
+        for (int k = 0; k < n; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            x[at] = borders[at] - 1.0F;
+            y[at] = 1.0F - borders[static_cast<std::size_t>(i / n % n)];
+            z[at] = borders[static_cast<std::size_t>((i / n + k) % 15)] * 2.0F - 1.0F;
         }
+        const TransformCtx ctx{x.data(),
+                               y.data(),
+                               z.data(),
+                               n,
+                               {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                               {1, 1, 2, 2, 256, 0.5F},
+                               nullptr,
+                               nullptr};
+        ASSERT_NO_FATAL_FAILURE(check_transform(table(), ctx, "row " + std::to_string(i / n)));
     }
 }
 
