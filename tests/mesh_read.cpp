@@ -489,6 +489,22 @@ TEST_F(MeshRead, WhatWasWrittenIsReadBackBitForBit) {
     EXPECT_EQ(entries(), (std::vector<std::string>{"knot.obj", "knot.ply"}));
 }
 
+TEST_F(MeshRead, StoredMeshesAreWhatTheirFormulasGive) {
+    const std::filesystem::path stored = std::filesystem::path(BURNISH_SOURCE_DIR) / "meshes";
+    const std::pair<const char*, MeshData> made[] = {{"sphere.ply", shapes::sphere(64, 32)},
+                                                     {"knot.obj", shapes::torus_knot(96, 12)},
+                                                     {"cube.obj", shapes::cube()}};
+    for (const auto& [name, mesh] : made) {
+        write_mesh_file(mesh, path(name));
+        EXPECT_TRUE(read(path(name)) == read(stored / name)) << name;
+        EXPECT_TRUE(read_mesh_file(stored / name).report.notes().empty()) << name;
+    }
+    const MeshReport by_hand = read_mesh_file(stored / "cube.off").report;
+    EXPECT_EQ(by_hand.polygons, 6U);
+    EXPECT_EQ(by_hand.boundary_edges, 0U);
+    EXPECT_EQ(by_hand.notes().size(), 2U);  // normals and uvs were made up
+}
+
 TEST_F(MeshRead, WriteRefusesOtherFormats) {
     try {
         write_mesh_file(shapes::cube(), path("cube.stl"));
