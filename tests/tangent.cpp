@@ -150,6 +150,31 @@ TEST(Tangent, IsProjectedIntoThePlaneOfTheNormal) {
     for (const glm::vec4& t : tangents_of(corners)) expect_near(t, {half, 0.0F, -half, 1.0F});
 }
 
+/// A steep triangle counts by its angle in the plane of the normal, not by how much of its tangent
+/// lies in that plane.
+TEST(Tangent, ProjectsBeforeItSums) {
+    const Corner o{{0.0F, 0.0F, 0.0F}, kUp, {0.0F, 0.0F}}, c{{1.0F, 1.0F, 0.0F}, kUp, {1.0F, 1.0F}};
+    const Corners corners = {o, {{1.0F, 0.0F, 0.0F}, kUp, {1.0F, 0.0F}},  c, o,
+                             c, {{-1.0F, 1.0F, 3.0F}, kUp, {-1.0F, 0.0F}}};
+    // First: u along x, 45 degrees. Second: dP/du = (1, -1, -3), seen from above a right angle.
+    const double pi = std::acos(-1.0);
+    const glm::dvec2 sum = glm::normalize(pi / 4 * glm::dvec2(1.0, 0.0) +
+                                          pi / 2 * glm::normalize(glm::dvec2(1.0, -1.0)));
+    expect_near(tangents_of(corners)[0], {sum.x, sum.y, 0.0F, 1.0F});
+    expect_near(tangents_of(corners)[3], {sum.x, sum.y, 0.0F, 1.0F});
+}
+
+/// Two triangles that run along their common edge in the same direction are not its two sides.
+TEST(Tangent, IsNotSharedWhereWindingChanges) {
+    const Corner o{{0.0F, 0.0F, 0.0F}, kUp, {0.0F, 0.0F}}, a{{1.0F, 0.0F, 0.0F}, kUp, {1.0F, 1.0F}};
+    const Corners corners = {o, a, {{0.0F, 1.0F, 0.0F}, kUp, {0.0F, 1.0F}},
+                             o, a, {{0.0F, -1.0F, 0.0F}, kUp, {0.0F, 1.0F}}};
+    const float half = std::sqrt(0.5F);
+    const std::vector<glm::vec4> got = tangents_of(corners);
+    for (std::size_t i = 0; i < 3; ++i) expect_near(got[i], {half, -half, 0.0F, 1.0F});
+    for (std::size_t i = 3; i < 6; ++i) expect_near(got[i], {half, half, 0.0F, 1.0F});
+}
+
 /// Two squares side by side, the second with uv mirrored about their common edge: the corners there
 /// agree in position, normal and uv, and must not be averaged.
 TEST(Tangent, SplitsWhereUvsAreMirrored) {
@@ -177,13 +202,40 @@ TEST(Tangent, IsSharedAcrossAnEdgeButNotAcrossAPoint) {
 }
 
 TEST(Tangent, TriangleWithoutUvAreaTakesItsNeighbours) {
+    for (const float sign : {-1.0F, 1.0F}) {
+        Corners corners = square(glm::mat2(sign, 0.0F, 0.0F, 1.0F));
+        for (std::size_t i = 3; i < 6; ++i) corners[i].uv = corners[i == 4 ? 2 : 0].uv;
+        const std::vector<glm::vec4> got = tangents_of(corners);
+        expect_near(got[0], {sign, 0.0F, 0.0F, sign});
+        expect_near(got[3], got[0]);
+        expect_near(got[4], got[2]);
+        EXPECT_EQ(got[5].w, sign);  // one sign in a triangle, also where it has no neighbour
+        expect_frames(corners, got);
+    }
+}
+
+/// A strip of triangles without uv area between a mirrored square and one that is not: each takes
+/// the side of the nearer one, and its own three corners agree.
+TEST(Tangent, SidesSpreadFromTheNearest) {
     Corners corners = square(glm::mat2(-1.0F, 0.0F, 0.0F, 1.0F));
-    for (std::size_t i = 3; i < 6; ++i) corners[i].uv = corners[i == 4 ? 2 : 0].uv;
+    constexpr int kStrip = 6;
+    for (int k = 1; k <= kStrip + 1; ++k) {
+        for (Corner corner : square(glm::mat2(1.0F))) {
+            corner.position.x += static_cast<float>(k);
+            const bool flat = k <= kStrip;
+            // Uvs along the strip's edges stay those of the first square's right edge, then those
+            // of the last one's left edge, so that neighbours share their vertices.
+            if (flat || corner.uv.x == 0.0F) corner.uv = {-1.0F, corner.uv.y};
+            corners.push_back(corner);
+        }
+    }
     const std::vector<glm::vec4> got = tangents_of(corners);
-    expect_near(got[3], got[0]);
-    expect_near(got[4], got[2]);
-    EXPECT_EQ(got[5].w, -1.0F);  // one sign in a triangle, also at the corner that has no neighbour
-    expect_frames(corners, got);
+    for (std::size_t i = 0; i < got.size(); i += 3) {
+        EXPECT_EQ(got[i].w, got[i + 1].w) << i / 3;
+        EXPECT_EQ(got[i].w, got[i + 2].w) << i / 3;
+        // 12 triangles between: six to each side.
+        EXPECT_EQ(got[i].w, i / 3 < 2 + kStrip ? -1.0F : 1.0F) << i / 3;
+    }
 }
 
 TEST(Tangent, NothingToGoByGivesAUnitTangent) {

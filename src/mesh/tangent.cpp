@@ -10,6 +10,7 @@ namespace burnish {
 std::vector<glm::vec4> corner_tangents(std::span<const glm::vec3> positions,
                                        std::span<const glm::vec3> normals,
                                        std::span<const glm::vec2> uvs) {
+    check_tangent_limit(positions.size());
     Weld same = weld(positions.size(), [&](std::size_t i) {
         const glm::vec3 &p = positions[i], &n = normals[i];
         return std::array{key_bits(p.x), key_bits(p.y), key_bits(p.z),      key_bits(n.x),

@@ -19,6 +19,8 @@ namespace burnish {
 /// group; the group's tangent is the angle-weighted sum of its triangles' tangents, projected into
 /// the plane of the normal. Mirrored uv therefore splits. Triangles without uv area join any
 /// neighbouring group. A corner with nothing to go by gets an arbitrary unit tangent, never NaN.
+/// The order of triangles, and the corner at which each begins, change no more than rounding.
+/// Throws Error{limit} above 2^28 triangles.
 /// Method: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008.
 std::vector<glm::vec4> corner_tangents(std::span<const glm::vec3> positions,
                                        std::span<const glm::vec3> normals,

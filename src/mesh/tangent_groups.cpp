@@ -11,8 +11,6 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 28;
-
 bool finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -150,10 +148,15 @@ class Grouping {
 
 }  // namespace
 
-TangentGroups tangent_groups(const WeldedTriangles& mesh) {
-    if (mesh.indices.size() / 3 > kMaxTriangles)
+void check_tangent_limit(std::size_t corner_count) {
+    constexpr std::size_t kMaxTriangles = std::size_t{1} << 28;
+    if (corner_count / 3 > kMaxTriangles)
         throw Error(ErrorCode::limit, fmt::format("{} triangles, expected at most {}",
-                                                  mesh.indices.size() / 3, kMaxTriangles));
+                                                  corner_count / 3, kMaxTriangles));
+}
+
+TangentGroups tangent_groups(const WeldedTriangles& mesh) {
+    check_tangent_limit(mesh.indices.size());
     return Grouping(mesh).run();
 }
 

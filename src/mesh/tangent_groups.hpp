@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -23,7 +24,10 @@ struct TangentGroups {
     std::vector<glm::vec4> tangent_of_group;  ///< as returned by corner_tangents
 };
 
-/// Groups and tangents by the rules at corner_tangents. Throws Error{limit} above 2^28 triangles.
+/// Throws Error{limit} above 2^28 triangles.
+void check_tangent_limit(std::size_t corner_count);
+
+/// Groups and tangents by the rules at corner_tangents. Throws as check_tangent_limit.
 TangentGroups tangent_groups(const WeldedTriangles& mesh);
 
 /// How a triangle's uv lies on it.
