@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +44,26 @@ ErrorCode error_of(const std::function<void()>& action) {
     ADD_FAILURE() << "no error";
     return ErrorCode::bad_option;
 }
+
+/// While it lives, files cannot grow beyond `bytes`: what a full disk looks like.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) : m_handler(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &m_before);
+        const rlimit limit{bytes, m_before.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &m_before);
+        std::signal(SIGXFSZ, m_handler);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+  private:
+    void (*m_handler)(int);
+    rlimit m_before{};
+};
 
 class ImageFiles : public ScratchDirectory {};
 
@@ -141,6 +163,17 @@ TEST_F(ImageFiles, FailedWritesLeaveNothingBehind) {
     EXPECT_EQ(error_of([&] { save_image(image, path("no/such/place.png")); }), ErrorCode::io);
     EXPECT_EQ(error_of([&] { save_image(image, path("what.xyz")); }), ErrorCode::io);
     EXPECT_EQ(entries(), (std::vector<std::string>{"taken.png"}));
+}
+
+TEST_F(ImageFiles, ADiskThatFillsUpLeavesNothingBehind) {
+    for (const char* name : {"full.png", "full.tif", "full.exr", "full.tga", "full.jpg"}) {
+        const FileSizeLimit limit(1000);
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(error_of([&] { save_image(busy_image(256, 256), path(name)); }), ErrorCode::io)
+            << name;
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << name;
+    }
+    EXPECT_EQ(entries(), (std::vector<std::string>{}));
 }
 
 TEST_F(ImageFiles, AFailedWriteKeepsTheOldFile) {

@@ -148,6 +148,14 @@ TEST(Program, DiscardIsNeverRead) {
         "final combiner: G reads discard");
 }
 
+TEST(Program, RegistersOutsideTheEnumerationAreRefused) {
+    const auto wild = static_cast<Register>(static_cast<int>(Register::discard) + 1);
+    EXPECT_SAYS(after([=](CombinerProgram& p) { p.stages[0].rgb.d = in(wild); }),
+                "D reads an unknown register");
+    EXPECT_SAYS(after([=](CombinerProgram& p) { p.stages[0].rgb.ab_out = wild; }),
+                "cannot be written");
+}
+
 TEST(Program, FogAlphaIsForTheFinalCombiner) {
     const Input fog_alpha = unsigned_alpha(Register::fog);
     EXPECT_SAYS(after([&](CombinerProgram& p) { p.stages[0].rgb.a = fog_alpha; }), "alpha of fog");

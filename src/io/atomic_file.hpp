@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 
 namespace burnish {
 
-/// A file that appears whole or not at all: write to `temporary()`, then `commit()`.
+/// A file that appears whole or not at all: write it, by `write()` or under the name `temporary()`,
+/// then `commit()`.
 ///
 /// The temporary lies in the same directory, so that the rename is one step, and keeps the
 /// extension, by which writers choose the format. It is removed unless committed.
@@ -17,6 +21,9 @@ class AtomicFile {
 
     [[nodiscard]] const std::filesystem::path& temporary() const noexcept { return m_temporary; }
 
+    /// Writes the whole temporary. Throws Error{io} if not every byte arrives.
+    void write(std::span<const std::byte> bytes);
+
     /// Puts the temporary in the target's place. Throws Error{io} if that cannot be done.
     void commit();
 
@@ -25,5 +32,8 @@ class AtomicFile {
     std::filesystem::path m_temporary;
     bool m_committed = false;
 };
+
+/// Writes every byte to a file descriptor. Throws Error{io} that calls the file `name`.
+void write_all(int descriptor, std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace burnish
