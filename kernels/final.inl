@@ -42,57 +42,88 @@ struct FinalWide {
     static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) { return lerp(a, b, c, d); }
 };
 
+/// The pseudo registers of one packet; a plane each for r, g, b.
+struct PseudoRegisters {
+    alignas(64) std::int16_t sum[3][kPacketSize], product[3][kPacketSize];
+};
+
+/// An input with its mapping: clamp to 0 and, for an inverted input, to 1; then x or 1 - x.
 template <class Model>
 struct FinalSource {
-    FinalSource(const Packet& packet, const Operand& operand)
-        : is_sum(operand.plane[0] == FinalCtx::kColorSum),
-          is_product(operand.plane[0] == FinalCtx::kFinalProduct),
-          invert(operand.mapping == 1) {
+    FinalSource(const Packet& packet, const Operand& operand, const PseudoRegisters& pseudo)
+        : is_sum(operand.plane[0] == FinalCtx::kColorSum), turn(0), offset(0), high(Model::kOne) {
+        const bool is_product = operand.plane[0] == FinalCtx::kFinalProduct;
         for (int c = 0; c < 3; ++c) {
-            plane[c] = packet.planes + (is_sum || is_product ? 0 : operand.plane[c]) * kPacketSize;
+            plane[c] = is_sum       ? pseudo.sum[c]
+                       : is_product ? pseudo.product[c]
+                                    : packet.planes + operand.plane[c] * kPacketSize;
+        }
+        if (operand.mapping == 1) {
+            turn = I16(-1);
+            offset = I16(Model::kOne + 1);  // ~x + 1 + one = one - x
+        } else if (is_sum) {
+            high = I16(32767);  // may exceed 1
         }
     }
-    I16 operator()(int component, int i, I16 sum, I16 product) const {
-        I16 e = sum;  // the colour sum is already mapped, and may exceed 1
-        if (!is_sum) e = Model::identity(is_product ? product : load(plane[component] + i));
-        return invert ? I16(Model::kOne) - min(e, I16(Model::kOne)) : e;
+    I16 operator()(int component, int i) const {
+        return (min(max(load(plane[component] + i), I16(0)), high) ^ turn) + offset;
     }
     const std::int16_t* plane[3];
-    bool is_sum, is_product, invert;
+    bool is_sum;
+    I16 turn, offset, high;
 };
+
+template <class Model, bool UsesSum>
+void blend(Packet& packet, const FinalCtx& ctx, const PseudoRegisters& pseudo) {
+    using Source = FinalSource<Model>;
+    const Source a(packet, ctx.a, pseudo), b(packet, ctx.b, pseudo), c(packet, ctx.c, pseudo),
+        d(packet, ctx.d, pseudo);
+    const I16 one(Model::kOne);
+    const int n = group_count(packet);
+    for (int k = 0; k < 3; ++k) {
+        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
+        for (int i = 0; i < n; i += kLanes) {
+            const I16 va = a(k, i), vb = b(k, i), vc = c(k, i), vd = d(k, i);
+            if constexpr (UsesSum) {
+                store(out + i, min(Model::lerp_with_sum(va, vb, vc, vd), one));
+            } else {
+                store(out + i, min(Model::lerp(va, vb, vc, vd), one));
+            }
+        }
+    }
+}
 
 template <class Model>
 void final_combiner(Packet& packet, const FinalCtx& ctx) {
-    using Source = FinalSource<Model>;
-    const Source a(packet, ctx.a), b(packet, ctx.b), c(packet, ctx.c), d(packet, ctx.d);
-    const Source e(packet, ctx.e), f(packet, ctx.f), g(packet, ctx.g);
-    const bool uses_sum = ctx.uses_color_sum != 0, uses_product = ctx.uses_final_product != 0;
-    const bool clamps_sum = ctx.clamp_color_sum != 0;
-    const std::int16_t *spare0[3], *secondary[3];
-    std::int16_t* out[4];
-    for (int k = 0; k < 3; ++k) {
-        spare0[k] = packet.planes + (uses_sum ? ctx.spare0[k] : 0) * kPacketSize;
-        secondary[k] = packet.planes + (uses_sum ? ctx.secondary[k] : 0) * kPacketSize;
-    }
-    for (int k = 0; k < 4; ++k) out[k] = packet.planes + ctx.out[k] * kPacketSize;
-    const I16 one(Model::kOne), zero(0);
+    PseudoRegisters pseudo;
     const int n = group_count(packet);
-    for (int i = 0; i < n; i += kLanes) {
+    if (ctx.uses_color_sum != 0) {
+        const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
         for (int k = 0; k < 3; ++k) {
-            I16 sum = zero, product = zero;
-            if (uses_sum) {
-                sum = Model::color_sum(load(spare0[k] + i), load(secondary[k] + i));
-                if (clamps_sum) sum = min(sum, one);
+            const std::int16_t* const spare0 = packet.planes + ctx.spare0[k] * kPacketSize;
+            const std::int16_t* const secondary = packet.planes + ctx.secondary[k] * kPacketSize;
+            for (int i = 0; i < n; i += kLanes) {
+                store(pseudo.sum[k] + i,
+                      min(Model::color_sum(load(spare0 + i), load(secondary + i)), limit));
             }
-            if (uses_product) product = Model::product(e(k, i, zero, zero), f(k, i, zero, zero));
-            const I16 va = a(k, i, sum, product), vb = b(k, i, sum, product);
-            const I16 vc = c(k, i, sum, product), vd = d(k, i, sum, product);
-            const I16 rgb =
-                uses_sum ? Model::lerp_with_sum(va, vb, vc, vd) : Model::lerp(va, vb, vc, vd);
-            store(out[k] + i, min(rgb, one));
         }
-        store(out[3] + i, g(0, i, zero, zero));
     }
+    if (ctx.uses_final_product != 0) {
+        const FinalSource<Model> e(packet, ctx.e, pseudo), f(packet, ctx.f, pseudo);
+        for (int k = 0; k < 3; ++k) {
+            for (int i = 0; i < n; i += kLanes) {
+                store(pseudo.product[k] + i, Model::product(e(k, i), f(k, i)));
+            }
+        }
+    }
+    if (ctx.uses_color_sum != 0) {
+        blend<Model, true>(packet, ctx, pseudo);
+    } else {
+        blend<Model, false>(packet, ctx, pseudo);
+    }
+    const FinalSource<Model> g(packet, ctx.g, pseudo);
+    std::int16_t* const alpha = packet.planes + ctx.out[3] * kPacketSize;
+    for (int i = 0; i < n; i += kLanes) store(alpha + i, g(0, i));
 }
 void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
     final_combiner<FinalNineBit>(packet, ctx);
@@ -131,10 +162,12 @@ void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
         store(half[0], zip_lo16(rg, ba));
         store(half[1], zip_hi16(rg, ba));
         const int used = count - i < kLanes ? count - i : kLanes;
-        for (int k = 0; k < used; ++k) {
-            std::uint32_t pixel;
-            __builtin_memcpy(&pixel, &half[(k >> 2) & 1][2 * ((k >> 3) * 4 + (k & 3))], 4);
-            tile[pixels[i + k]] = pixel;
+        for (int part = 0; part < used; part += 4) {
+            const std::int16_t* from = half[part / 4 & 1] + part / 8 * 8;
+            const int last = used - part < 4 ? used - part : 4;
+            for (int k = 0; k < last; ++k) {
+                __builtin_memcpy(tile + pixels[i + part + k], from + 2 * k, 4);
+            }
         }
     }
 }

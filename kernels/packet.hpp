@@ -18,7 +18,8 @@ inline constexpr int kPacketSize = 256;
 /// Kernels compute whole groups of this many fragments; what lies beyond `Packet::count` is
 /// garbage.
 inline constexpr int kFragmentGroup = 32;
-/// Values from one attribute plane to the next. Kernels may write up to 16 values past a run.
+/// Values from one attribute plane to the next. Kernels may read up to 16 pixels and write up to 16
+/// values past a run.
 inline constexpr int kAttributeStride = kPacketSize + 16;
 
 /// Pixels of a tile are numbered block by block, row by row inside a block:

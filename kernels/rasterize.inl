@@ -5,33 +5,41 @@ inline constexpr int kRowVectors = kLanes32 >= kBlockSize ? 1 : kBlockSize / kLa
 inline constexpr int kVectorRows = kLanes32 >= kBlockSize ? kLanes32 / kBlockSize : 1;
 
 /// Position of each lane inside its vector.
-I32 lane_x() {
-    alignas(64) std::int32_t x[kLanes32];
-    for (int i = 0; i < kLanes32; ++i) x[i] = i % kBlockSize;
-    return load(x);
+struct LanePositions {
+    alignas(64) std::int32_t x[16], y[16];
+};
+constexpr LanePositions make_lane_positions() {
+    LanePositions lanes{};
+    for (int i = 0; i < 16; ++i) {
+        lanes.x[i] = i % kBlockSize;
+        lanes.y[i] = i / kBlockSize;
+    }
+    return lanes;
 }
-I32 lane_y() {
-    alignas(64) std::int32_t y[kLanes32];
-    for (int i = 0; i < kLanes32; ++i) y[i] = i / kBlockSize;
-    return load(y);
+constexpr LanePositions kLanePositions = make_lane_positions();
+inline I32 lane_x() {
+    return load(kLanePositions.x);
+}
+inline I32 lane_y() {
+    return load(kLanePositions.y);
 }
 
-/// Range of the depths of a block: the expression is monotone in x and in y even when rounded, so
-/// its corners bound it.
-struct DepthRange {
-    float low, high;
-};
-DepthRange block_depths(const TileTriangle& t, int x, int y) {
-    DepthRange range{t.z_high, t.z_low};
-    for (int corner = 0; corner < 4; ++corner) {
-        const float dx = static_cast<float>(x + t.offset_x + (corner & 1) * (kBlockSize - 1));
-        const float dy = static_cast<float>(y + t.offset_y + (corner >> 1) * (kBlockSize - 1));
-        float z = (t.z + dx * t.zx) + dy * t.zy;
-        z = z < t.z_low ? t.z_low : z > t.z_high ? t.z_high : z;
-        range.low = z < range.low ? z : range.low;
-        range.high = z > range.high ? z : range.high;
-    }
-    return range;
+/// Depth at a tile pixel, as RasterizeCtx defines it.
+inline float depth_at(const TileTriangle& t, int x, int y) {
+    const float z = (t.z + static_cast<float>(x + t.offset_x) * t.zx) +
+                    static_cast<float>(y + t.offset_y) * t.zy;
+    return z < t.z_low ? t.z_low : z > t.z_high ? t.z_high : z;
+}
+
+/// Bounds of a block's depths: the expression is monotone in x and in y even when rounded, so they
+/// are at the corners that the slopes point to.
+inline float nearest_depth(const TileTriangle& t, int x, int y) {
+    constexpr int kLast = kBlockSize - 1;
+    return depth_at(t, t.zx < 0.0F ? x + kLast : x, t.zy < 0.0F ? y + kLast : y);
+}
+inline float farthest_depth(const TileTriangle& t, int x, int y) {
+    constexpr int kLast = kBlockSize - 1;
+    return depth_at(t, t.zx < 0.0F ? x : x + kLast, t.zy < 0.0F ? y : y + kLast);
 }
 
 struct EdgeVectors {
@@ -78,7 +86,24 @@ CrossingEdges crossing_edges(const TileTriangle& t, int x, int y) {
     return crossing;
 }
 
-/// Coverage, depth test and visibility of one block.
+/// The usual rule: nearer fragments win and leave their depth.
+struct NearerWins {
+    static MaskF pass(const TileTriangle&, F32 z, F32 old) { return z < old; }
+    static bool writes(const TileTriangle&) { return true; }
+};
+struct AnyRule {
+    static MaskF pass(const TileTriangle& t, F32 z, F32 old) {
+        MaskF pass(false);
+        if (t.pass_less != 0) pass = z < old;
+        if (t.pass_equal != 0) pass = pass | (z == old);
+        if (t.pass_greater != 0) pass = pass | (z > old);
+        return pass;
+    }
+    static bool writes(const TileTriangle& t) { return t.depth_write != 0; }
+};
+
+/// Coverage, depth test and visibility of one block that `Edges` edges cross.
+template <int Edges, class Rule>
 void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingEdges& crossing,
                 int x, int y, float* depth, std::uint32_t* id) {
     const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
@@ -88,60 +113,130 @@ void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingE
     for (int k = 0; k < kRowVectors; ++k) {
         z_row[k] = z0 + to_float(lane_x() + I32(x + t.offset_x + k * kLanes32)) * zx;
     }
-    for (int v = 0; v < kBlockVectors; ++v) {
-        const float first_row = static_cast<float>(y + t.offset_y + v / kRowVectors * kVectorRows);
-        const F32 z =
-            min(max(z_row[v % kRowVectors] + (F32(first_row) + lanes_y) * zy, z_low), z_high);
+    I32 base[Edges > 0 ? Edges : 1];
+    const std::int32_t* step[Edges > 0 ? Edges : 1];
+    for (int k = 0; k < Edges; ++k) {
+        base[k] = edges.lanes[crossing.edge[k]] + I32(crossing.base[k]);
+        step[k] = edges.step[crossing.edge[k]];
+    }
+    // Vectors that hold no row of the bounding box cannot be covered.
+    const int above = t.y0 > y ? t.y0 - y : 0;
+    const int last_row = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
+    const int first = above / kVectorRows * kRowVectors;
+    const int end = (last_row / kVectorRows + 1) * kRowVectors;
+    for (int v = first; v < end; ++v) {
+        const float row = static_cast<float>(y + t.offset_y + v / kRowVectors * kVectorRows);
+        const F32 z = min(max(z_row[v % kRowVectors] + (F32(row) + lanes_y) * zy, z_low), z_high);
         const F32 old = load(depth + v * kLanes32);
-        MaskF pass(false);
-        if (t.pass_less != 0) pass = z < old;
-        if (t.pass_equal != 0) pass = pass | (z == old);
-        if (t.pass_greater != 0) pass = pass | (z > old);
-        Mask32 write = as_int(pass);
-        if (crossing.count > 0) {
-            I32 outside(0);
-            for (int k = 0; k < crossing.count; ++k) {
-                const int e = crossing.edge[k];
-                outside = outside | (edges.lanes[e] + I32(crossing.base[k] + edges.step[e][v]));
-            }
+        Mask32 write = as_int(Rule::pass(t, z, old));
+        if constexpr (Edges > 0) {
+            I32 outside = base[0] + I32(step[0][v]);
+            for (int k = 1; k < Edges; ++k) outside = outside | (base[k] + I32(step[k][v]));
             write = write & (outside >= I32(0));
         }
         auto* ids = reinterpret_cast<std::int32_t*>(id) + v * kLanes32;
         store(ids, ::xsimd::select(write, new_id, load(ids)));
-        if (t.depth_write != 0) {
+        if (Rule::writes(t)) {
             store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
         }
     }
 }
 
+template <class Rule>
+void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingEdges& crossing,
+                int x, int y, float* depth, std::uint32_t* id) {
+    switch (crossing.count) {
+        case 0:
+            return draw_block<0, Rule>(t, edges, crossing, x, y, depth, id);
+        case 1:
+            return draw_block<1, Rule>(t, edges, crossing, x, y, depth, id);
+        case 2:
+            return draw_block<2, Rule>(t, edges, crossing, x, y, depth, id);
+        default:
+            return draw_block<3, Rule>(t, edges, crossing, x, y, depth, id);
+    }
+}
+
+/// Nothing of the triangle in this block can pass the depth test.
+inline bool hidden(const TileTriangle& t, int x, int y, float far) {
+    if (t.pass_greater != 0) return false;
+    const float nearest = nearest_depth(t, x, y);
+    return t.pass_equal != 0 ? nearest > far : nearest >= far;
+}
+
+/// Upper bound of a block's depths after the triangle was drawn in it.
+inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, float far) {
+    if (t.depth_write == 0) return far;
+    if (t.pass_greater != 0) {
+        const float farthest = farthest_depth(t, x, y);
+        return farthest > far ? farthest : far;
+    }
+    if (!whole_block || t.pass_less == 0) return far;
+    // Whatever the test left is no farther than the triangle.
+    const float farthest = farthest_depth(t, x, y);
+    return farthest < far ? farthest : far;
+}
+
+template <class Rule>
 void rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
     const EdgeVectors edges = edge_vectors(t);
     for (int y = t.y0 / kBlockSize * kBlockSize; y <= t.y1; y += kBlockSize) {
         for (int x = t.x0 / kBlockSize * kBlockSize; x <= t.x1; x += kBlockSize) {
             const CrossingEdges crossing = crossing_edges(t, x, y);
-            if (crossing.count < 0) continue;
             const int block = y / kBlockSize * kBlockSize + x / kBlockSize;
-            const DepthRange range = block_depths(t, x, y);
             float& far = ctx.block_far[block];
-            if (t.pass_greater == 0) {
-                const bool hidden = t.pass_equal != 0 ? range.low > far : range.low >= far;
-                if (hidden) continue;
-            }
-            draw_block(t, edges, crossing, x, y, ctx.depth + block * kBlockPixels,
-                       ctx.id + block * kBlockPixels);
-            if (t.depth_write == 0) continue;
-            if (t.pass_greater != 0) {
-                far = range.high > far ? range.high : far;
-            } else if (crossing.count == 0 && t.pass_less != 0) {
-                // Whatever the test left is no farther than the triangle.
-                far = range.high < far ? range.high : far;
-            }
+            if (crossing.count < 0 || hidden(t, x, y, far)) continue;
+            draw_block<Rule>(t, edges, crossing, x, y, ctx.depth + block * kBlockPixels,
+                             ctx.id + block * kBlockPixels);
+            far = updated_far(t, x, y, crossing.count == 0, far);
         }
     }
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
-    for (int i = 0; i < ctx.count; ++i) rasterize_triangle(ctx.triangles[i], ctx);
+    for (int i = 0; i < ctx.count; ++i) {
+        const TileTriangle& t = ctx.triangles[i];
+        const bool usual =
+            t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
+        if (usual) {
+            rasterize_triangle<NearerWins>(t, ctx);
+        } else {
+            rasterize_triangle<AnyRule>(t, ctx);
+        }
+    }
+}
+
+/// Set bits of a byte as 16-bit positions, packed to the front; a table of 256 rows of 16 bytes.
+struct BitPositions {
+    alignas(16) std::uint16_t row[256][8];
+};
+constexpr BitPositions make_bit_positions() {
+    BitPositions table{};
+    for (int byte = 0; byte < 256; ++byte) {
+        int n = 0;
+        for (int bit = 0; bit < 8; ++bit) {
+            if ((byte >> bit & 1) != 0) table.row[byte][n++] = static_cast<std::uint16_t>(bit);
+        }
+    }
+    return table;
+}
+constexpr BitPositions kBitPositions = make_bit_positions();
+
+/// Appends first_pixel plus the positions of the set bits, row by row; writes up to 8 values past
+/// the last. The sums do not carry from one 16-bit part of a word to the next.
+std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel, std::uint16_t* out) {
+    constexpr std::uint64_t kOnes = 0x0001000100010001U;
+    std::uint64_t base = first_pixel * kOnes;
+    for (; mask != 0; mask >>= 8, base += 8 * kOnes) {
+        const std::uint64_t bits = mask & 255;
+        std::uint64_t words[2];
+        __builtin_memcpy(words, kBitPositions.row[bits], sizeof words);
+        words[0] += base;
+        words[1] += base;
+        __builtin_memcpy(out, words, sizeof words);
+        out += __builtin_popcountll(bits);
+    }
+    return out;
 }
 
 void match(const MatchCtx& ctx) noexcept {
@@ -155,11 +250,14 @@ void match(const MatchCtx& ctx) noexcept {
         return mask;
     };
     int count = 0;
-    for (std::uint64_t rest = ~equal(kNoTriangle); rest != 0; ++count) {
+    std::uint16_t* pixels = ctx.out->pixels;
+    for (std::uint64_t rest = ~equal(kNoTriangle) & ctx.inside; rest != 0; ++count) {
         const std::uint32_t id = ctx.id[__builtin_ctzll(rest)];
-        const std::uint64_t mask = equal(id);
+        const std::uint64_t mask = equal(id) & rest;
+        std::uint16_t* const end = append_pixels(mask, ctx.first_pixel, pixels);
         ctx.out->id[count] = id;
-        ctx.out->mask[count] = mask;
+        ctx.out->size[count] = static_cast<std::uint8_t>(end - pixels);
+        pixels = end;
         rest &= ~mask;
     }
     ctx.out->count = count;

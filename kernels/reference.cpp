@@ -133,17 +133,21 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
 void match(const MatchCtx& ctx) noexcept {
     BlockTriangles& out = *ctx.out;
     out.count = 0;
-    for (int pixel = 0; pixel < kBlockPixels; ++pixel) {
-        const std::uint32_t id = ctx.id[pixel];
-        if (id == kNoTriangle) continue;
-        const std::uint32_t* end = out.id + out.count;
-        const auto slot = std::find(static_cast<const std::uint32_t*>(out.id), end, id) - out.id;
-        if (slot == out.count) {
-            out.id[slot] = id;
-            out.mask[slot] = 0;
-            ++out.count;
+    const auto shown = [&](int pixel) {
+        return (ctx.inside >> pixel & 1) != 0 && ctx.id[pixel] != kNoTriangle;
+    };
+    int listed = 0;
+    for (int first = 0; first < kBlockPixels; ++first) {
+        const std::uint32_t id = ctx.id[first];
+        std::uint32_t* const end = out.id + out.count;
+        if (!shown(first) || std::find(out.id + 0, end, id) != end) continue;
+        const int before = listed;
+        for (int pixel = first; pixel < kBlockPixels; ++pixel) {
+            if (!shown(pixel) || ctx.id[pixel] != id) continue;
+            out.pixels[listed++] = static_cast<std::uint16_t>(ctx.first_pixel + pixel);
         }
-        out.mask[slot] |= std::uint64_t{1} << pixel;
+        out.id[out.count] = id;
+        out.size[out.count++] = static_cast<std::uint8_t>(listed - before);
     }
 }
 

@@ -53,13 +53,6 @@ inline void store(float* p, F32 v) {
     v.store_unaligned(p);
 }
 
-/// a < b ? a : b and a > b ? a : b on every ISA: a NaN in a yields b.
-inline F32 min(F32 a, F32 b) {
-    return ::xsimd::select(a < b, a, b);
-}
-inline F32 max(F32 a, F32 b) {
-    return ::xsimd::select(a > b, a, b);
-}
 inline I16 min(I16 a, I16 b) {
     return ::xsimd::min(a, b);
 }
@@ -83,6 +76,14 @@ inline F32 to_float(I32 v) {
 
 #if defined(__AVX512BW__)
 
+/// a < b ? a : b and a > b ? a : b on every ISA: a NaN in a yields b. On x86 that is what the
+/// instructions do.
+inline F32 min(F32 a, F32 b) {
+    return _mm512_min_ps(a, b);
+}
+inline F32 max(F32 a, F32 b) {
+    return _mm512_max_ps(a, b);
+}
 inline Mask32 as_int(MaskF m) {
     return Mask32(m.data);
 }
@@ -153,6 +154,12 @@ inline I16 broadcast_lane(const void* p) {
 
 #elif defined(__AVX2__)
 
+inline F32 min(F32 a, F32 b) {
+    return _mm256_min_ps(a, b);
+}
+inline F32 max(F32 a, F32 b) {
+    return _mm256_max_ps(a, b);
+}
 inline Mask32 as_int(MaskF m) {
     return Mask32(_mm256_castps_si256(m.data));
 }
@@ -219,6 +226,12 @@ inline I16 broadcast_lane(const void* p) {
 
 #elif defined(__SSE4_2__)
 
+inline F32 min(F32 a, F32 b) {
+    return _mm_min_ps(a, b);
+}
+inline F32 max(F32 a, F32 b) {
+    return _mm_max_ps(a, b);
+}
 inline Mask32 as_int(MaskF m) {
     return Mask32(_mm_castps_si128(m.data));
 }
@@ -284,6 +297,12 @@ inline I16 broadcast_lane(const void* p) {
 
 #elif defined(__aarch64__)
 
+inline F32 min(F32 a, F32 b) {
+    return ::xsimd::select(a < b, a, b);
+}
+inline F32 max(F32 a, F32 b) {
+    return ::xsimd::select(a > b, a, b);
+}
 inline Mask32 as_int(MaskF m) {
     return Mask32(m.data);
 }

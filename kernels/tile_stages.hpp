@@ -99,16 +99,21 @@ struct RasterizeCtx {
     float* block_far;   ///< kTileBlocks
 };
 
-/// Distinct triangles of one 8x8 block, in the order of their first pixels.
+/// Distinct triangles of one 8x8 block, in the order of their first pixels, with the pixels that
+/// show them: tile indices, triangle after triangle, rising within each.
 struct BlockTriangles {
     int count;
     std::uint32_t id[kBlockPixels];
-    std::uint64_t mask[kBlockPixels];  ///< bit i: pixel i of the block shows that triangle
+    std::uint8_t size[kBlockPixels];         ///< pixels of each triangle
+    std::uint16_t pixels[kBlockPixels + 8];  ///< kernels may write 8 values past the last
 };
 
-/// Fills `out` from 64 ids of the visibility buffer; kNoTriangle is left out.
+/// Fills `out` from 64 ids of the visibility buffer. Left out: kNoTriangle, and pixels whose bit of
+/// `inside` is 0.
 struct MatchCtx {
     const std::uint32_t* id;
+    std::uint64_t inside;       ///< bit i: pixel i of the block lies in the frame
+    std::uint16_t first_pixel;  ///< tile index of the block's pixel 0
     BlockTriangles* out;
 };
 

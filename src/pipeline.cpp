@@ -247,10 +247,13 @@ void Renderer::State::shade_tile(Worker& worker) const {
                         store_format(worker.image.format()), worker.image.pixels());
     for (int block = 0; block < kTileBlocks; ++block) {
         visibility.match_block(block, kernels, worker.block);
+        const std::uint16_t* pixels = worker.block.pixels;
         for (int i = 0; i < worker.block.count; ++i) {
             const std::uint32_t id = worker.block.id[i];
-            worker.shader.add(shaded_draws[triangles[id]->draw], *triangles[id], id, block,
-                              worker.block.mask[i]);
+            const SetupTriangle& triangle = *triangles[id];
+            worker.shader.add(shaded_draws[triangle.draw], triangle, id, pixels,
+                              worker.block.size[i]);
+            pixels += worker.block.size[i];
         }
     }
     worker.shader.finish();

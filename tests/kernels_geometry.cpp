@@ -327,17 +327,24 @@ TEST_P(KernelTest, WholeTileInFrontLowersEveryBound) {
 // ---- match
 
 void check_match(const KernelTable& table, const std::array<std::uint32_t, kBlockPixels>& ids,
-                 unsigned seed) {
+                 unsigned seed, std::uint64_t inside) {
     AlignedVector<std::uint32_t> block(ids.begin(), ids.end());
     BlockTriangles got{};
     BlockTriangles want{};
-    table.match({block.data(), &got});
-    table_reference().match({block.data(), &want});
+    const auto first_pixel = static_cast<std::uint16_t>(seed % kTileBlocks * kBlockPixels);
+    table.match({block.data(), inside, first_pixel, &got});
+    table_reference().match({block.data(), inside, first_pixel, &want});
     ASSERT_EQ(got.count, want.count) << table.isa << " match, seed " << seed;
+    int pixels = 0;
     for (int k = 0; k < want.count; ++k) {
         ASSERT_EQ(got.id[k], want.id[k]) << table.isa << " match, seed " << seed << ", slot " << k;
-        ASSERT_EQ(got.mask[k], want.mask[k])
+        ASSERT_EQ(got.size[k], want.size[k])
             << table.isa << " match, seed " << seed << ", slot " << k;
+        pixels += want.size[k];
+    }
+    for (int k = 0; k < pixels; ++k) {
+        ASSERT_EQ(got.pixels[k], want.pixels[k])
+            << table.isa << " match, seed " << seed << ", pixel " << k;
     }
 }
 
@@ -351,14 +358,17 @@ TEST_P(KernelTest, MatchOfRandomBlocks) {
             id = random.chance(empty)
                      ? kNoTriangle
                      : static_cast<std::uint32_t>(random.below(kinds)) * 0x01010101U;
-        ASSERT_NO_FATAL_FAILURE(check_match(table(), ids, seed));
+        std::uint64_t inside = ~std::uint64_t{0};  // or some columns and rows of the block
+        if (random.chance(3)) inside >>= 8 * random.below(8);
+        if (random.chance(3)) inside &= 0x0101010101010101U * (0xffU >> random.below(8));
+        ASSERT_NO_FATAL_FAILURE(check_match(table(), ids, seed, inside));
     }
 }
 
 TEST_P(KernelTest, MatchOfSixtyFourTriangles) {
     std::array<std::uint32_t, kBlockPixels> ids{};
     for (std::uint32_t i = 0; i < kBlockPixels; ++i) ids[i] = 0xfffffffeU - i;
-    check_match(table(), ids, 0);
+    check_match(table(), ids, 0, ~std::uint64_t{0});
 }
 
 }  // namespace

@@ -162,12 +162,16 @@ TEST_P(ReferencePixels, TrianglesOfABlockInOrderOfAppearance) {
     id[3] = id[63] = 9;
     id[4] = 2;
     BlockTriangles out{};
-    table().match({id.data(), &out});
+    id[5] = 7;  // outside the frame
+    table().match({id.data(), ~(std::uint64_t{1} << 5), 640, &out});
     ASSERT_EQ(out.count, 2);
     EXPECT_EQ(out.id[0], 9U);
-    EXPECT_EQ(out.mask[0], (std::uint64_t{1} << 63) | 8U);
+    EXPECT_EQ(out.size[0], 2);
+    EXPECT_EQ(out.pixels[0], 643);
+    EXPECT_EQ(out.pixels[1], 703);
     EXPECT_EQ(out.id[1], 2U);
-    EXPECT_EQ(out.mask[1], 16U);
+    EXPECT_EQ(out.size[1], 1);
+    EXPECT_EQ(out.pixels[2], 644);
 }
 
 TEST_P(ReferencePixels, AttributesAreDividedByTheInterpolatedOneOverW) {

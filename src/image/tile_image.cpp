@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "kernels/packet.hpp"
 
@@ -35,8 +36,13 @@ EncodedPixel encode_pixel(const glm::vec4& color, PixelFormat format) {
     return pixel;
 }
 
+/// Copies what is there already, twice as much every time.
 void repeat_pixel(std::byte* to, std::size_t count, const EncodedPixel& pixel, std::size_t size) {
-    for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * size, pixel.bytes, size);
+    const std::size_t bytes = count * size;
+    std::memcpy(to, pixel.bytes, size);
+    for (std::size_t done = size; done < bytes; done *= 2) {
+        std::memcpy(to + done, to, std::min(done, bytes - done));
+    }
 }
 
 /// Calls f(bytes in the tile, bytes in the frame, size) for the parts of a tile that lie in a row
@@ -53,7 +59,8 @@ void for_each_row(int width, int height, std::int32_t left, std::int32_t top, F&
             const std::size_t in_tile = static_cast<std::size_t>(index) * PixelSize;
             const std::size_t in_row = static_cast<std::size_t>(left + x) * PixelSize;
             if (columns - x >= kBlockSize) {
-                f(in_tile, top + y, in_row, kBlockSize * PixelSize);
+                f(in_tile, top + y, in_row,
+                  std::integral_constant<std::size_t, kBlockSize * PixelSize>{});
             } else {
                 f(in_tile, top + y, in_row, static_cast<std::size_t>(columns - x) * PixelSize);
             }
@@ -84,14 +91,14 @@ void TileImage::fill(const glm::vec4& color) {
 
 void TileImage::load(const Framebuffer& frame, std::int32_t left, std::int32_t top) {
     for_each_row(frame, left, top,
-                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, std::size_t n) {
+                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
                      std::memcpy(m_pixels.data() + in_tile, frame.row(y) + in_row, n);
                  });
 }
 
 void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
     for_each_row(frame, left, top,
-                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, std::size_t n) {
+                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
                      std::memcpy(frame.row(y) + in_row, m_pixels.data() + in_tile, n);
                  });
 }

@@ -125,6 +125,19 @@ void compile_long(const Material& material, const glm::vec3& light, const glm::v
     out.units.push_back(material.specular_map);
 }
 
+/// Ambient and diffuse light, where no stage is left for them: a constant, or with the vertices.
+Input unlobed_light(const Material& material, const glm::vec3& light, const glm::vec3& ambient,
+                    CombinerProgram& program, ProgramMaterial& out) {
+    if (material.kd == glm::vec3(0.0F)) {
+        program.const1 = glm::vec4(ambient, 1.0F);
+        return raw(Register::const1);
+    }
+    out.col1_rgb = ColorInput::lit;
+    out.lit_tint = material.kd * light;
+    out.lit_base = ambient;
+    return raw(Register::col1);
+}
+
 /// Two stages, two units: ks is a constant times the tangent map's alpha; diffuse and ambient light
 /// come with the vertices.
 void compile_two_units(const Material& material, const glm::vec3& light, const glm::vec3& ambient,
@@ -136,14 +149,12 @@ void compile_two_units(const Material& material, const glm::vec3& light, const g
         .ab(mul(alpha(in(tex(0))), alpha(in(Register::col0))), Register::spare0);
     ProgramBuilder last;
     last.product(alpha(raw(Register::spare0)), raw(Register::const0));
-    last.lerp(kLobe, kNone, raw(Register::final_product), raw(Register::col1));
+    last.lerp(kLobe, kNone, raw(Register::final_product),
+              unlobed_light(material, light, ambient, program, out));
     last.out_alpha(alpha(one()));
     program.final_combiner = last.build().final_combiner;
     program.const0 = glm::vec4(material.ks * light, 1.0F);
     out.combiners = program;
-    out.col1_rgb = ColorInput::lit;
-    out.lit_tint = material.kd * light;
-    out.lit_base = ambient;
 }
 
 /// Two stages, three units: ks is a map. E*F holds the map and one more factor, so the constants
@@ -155,19 +166,18 @@ void compile_three_units(const Material& material, const Machine& machine, const
     CombinerProgram program = p.build();
     const glm::vec3 factor = material.ks * light;
     ProgramBuilder last;
-    out.col1_rgb = ColorInput::lit;
     if (is_grey(factor)) {
         PortionBuilder(program.stages[0].alpha)
             .ab(mul(alpha(in(Register::col0)), alpha(in(Register::const0))), Register::spare0);
         program.const0 = glm::vec4(0.0F, 0.0F, 0.0F, factor.r);
         last.product(raw(tex(2)), alpha(raw(Register::spare0)));
-        last.lerp(kLobe, kNone, raw(Register::final_product), raw(Register::col1));
-        out.lit_tint = material.kd * light;
-        out.lit_base = ambient;
+        last.lerp(kLobe, kNone, raw(Register::final_product),
+                  unlobed_light(material, light, ambient, program, out));
     } else if (material.kd == glm::vec3(0.0F)) {
         last.product(raw(tex(2)), raw(Register::col1));
         last.lerp(kLobe, kNone, raw(Register::final_product), raw(Register::const1));
         program.const1 = glm::vec4(ambient, 1.0F);
+        out.col1_rgb = ColorInput::lit;
         out.lit_tint = factor;
     } else {
         short_of(material, machine,

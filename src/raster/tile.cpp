@@ -13,6 +13,7 @@ constexpr int kBlocksPerRow = kTileSize / kBlockSize;
 std::uint64_t frame_mask(std::int32_t left, std::int32_t top, FrameSize frame) {
     const std::int32_t columns = std::clamp(frame.width - left, 0, kBlockSize);
     const std::int32_t rows = std::clamp(frame.height - top, 0, kBlockSize);
+    if (columns == kBlockSize && rows == kBlockSize) return ~std::uint64_t{0};
     const std::uint64_t row = (std::uint64_t{1} << columns) - 1;
     std::uint64_t mask = 0;
     for (std::int32_t y = 0; y < rows; ++y) mask |= row << (kBlockSize * y);
@@ -66,18 +67,11 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
 }
 
 void TileVisibility::match_block(int block, const KernelTable& kernels, BlockTriangles& out) const {
-    kernels.match({m_id.data() + static_cast<std::ptrdiff_t>(block) * kBlockPixels, &out});
     const std::int32_t x = left() + block % kBlocksPerRow * kBlockSize;
     const std::int32_t y = top() + block / kBlocksPerRow * kBlockSize;
-    if (x + kBlockSize <= m_frame.width && y + kBlockSize <= m_frame.height) return;
-    const std::uint64_t inside = frame_mask(x, y, m_frame);
-    int kept = 0;
-    for (int i = 0; i < out.count; ++i) {
-        if ((out.mask[i] & inside) == 0) continue;
-        out.id[kept] = out.id[i];
-        out.mask[kept++] = out.mask[i] & inside;
-    }
-    out.count = kept;
+    const int first = block * kBlockPixels;
+    kernels.match(
+        {m_id.data() + first, frame_mask(x, y, m_frame), static_cast<std::uint16_t>(first), &out});
 }
 
 }  // namespace burnish

@@ -1,8 +1,6 @@
 #include "shade/packets.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstring>
 
 #include "shade/attributes.hpp"
@@ -13,36 +11,6 @@ namespace {
 
 constexpr std::size_t kPlaneBlock = 8192;  // plane equations; 96 KB
 constexpr std::size_t kPixelSlack = 64;    // kernels read whole vectors
-
-/// Set bits of a byte as 16-bit positions, packed to the front.
-using BitPositions = std::array<std::array<std::uint16_t, 8>, 256>;
-constexpr BitPositions make_bit_positions() {
-    BitPositions table{};
-    for (std::size_t byte = 0; byte < 256; ++byte) {
-        std::size_t n = 0;
-        for (std::uint16_t bit = 0; bit < 8; ++bit) {
-            if ((byte >> bit & 1) != 0) table[byte][n++] = bit;
-        }
-    }
-    return table;
-}
-constexpr BitPositions kBitPositions = make_bit_positions();
-
-/// Appends the positions of the set bits plus `base`; writes up to 8 values past the last. Row by
-/// row, since a table of 256 rows stays in the first-level cache.
-int append_pixels(std::uint64_t mask, std::uint16_t base, std::uint16_t* out) {
-    int count = 0;
-    for (std::uint16_t row = 0; row < 8; ++row) {
-        const auto bits = static_cast<std::uint8_t>(mask >> (8 * row));
-        const auto offset = static_cast<std::uint16_t>(base + 8 * row);
-        for (std::size_t i = 0; i < 8; ++i) {
-            out[static_cast<std::size_t>(count) + i] =
-                static_cast<std::uint16_t>(kBitPositions[bits][i] + offset);
-        }
-        count += std::popcount(bits);
-    }
-    return count;
-}
 
 }  // namespace
 
@@ -96,14 +64,13 @@ const AttributePlane* PacketShader::planes_of(const ShadedDraw& draw, const Setu
 }
 
 void PacketShader::add(const ShadedDraw& draw, const SetupTriangle& triangle, std::uint32_t id,
-                       int block, std::uint64_t mask) {
-    const int count = std::popcount(mask);
+                       const std::uint16_t* pixels, int count) {
     if (draw.shading != m_current || m_packet.count + count > kPacketSize) {
         shade();
         m_current = draw.shading;
     }
-    const auto base = static_cast<std::uint16_t>(block * kBlockPixels);
-    append_pixels(mask, base, m_pixels.data() + m_packet.count);
+    std::uint16_t* to = m_pixels.data() + m_packet.count;
+    for (int i = 0; i < count; i += 8) std::memcpy(to + i, pixels + i, 8 * sizeof *pixels);
     m_runs.push_back({planes_of(draw, triangle, id), m_packet.count, count,
                       m_left - triangle.reference_x, m_top - triangle.reference_y});
     m_packet.count += count;

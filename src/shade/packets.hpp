@@ -29,9 +29,10 @@ class PacketShader {
     void begin(const KernelTable& kernels, std::int32_t left, std::int32_t top,
                std::size_t triangle_count, StoreFormat format, void* tile);
 
-    /// Pixels of one block that show `triangle`, the tile's triangle number `id`.
-    void add(const ShadedDraw& draw, const SetupTriangle& triangle, std::uint32_t id, int block,
-             std::uint64_t mask);
+    /// `count` pixels of the tile that show `triangle`, the tile's triangle number `id`; at
+    /// most 64. `pixels` is readable up to the next multiple of 8.
+    void add(const ShadedDraw& draw, const SetupTriangle& triangle, std::uint32_t id,
+             const std::uint16_t* pixels, int count);
 
     /// Shades what is left.
     void finish();
