@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gtest/gtest.h>
 #include <burnish/error.hpp>
 #include <burnish/shapes.hpp>
@@ -8,7 +10,6 @@
 #include <random>
 #include <string>
 
-#include "fmt/format.h"
 #include "io/read_mesh.hpp"
 #include "io/write_mesh.hpp"
 #include "tests/scratch_directory.hpp"

@@ -1,5 +1,7 @@
 #include "io/read_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <gtest/gtest.h>
 #include <burnish/error.hpp>
 #include <burnish/shapes.hpp>
@@ -11,7 +13,6 @@
 #include <string>
 #include <tuple>
 
-#include "fmt/format.h"
 #include "io/write_mesh.hpp"
 #include "tests/scratch_directory.hpp"
 

@@ -1,10 +1,11 @@
 #include "io/mesh_ply_header.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "fmt/format.h"
 #include "io/mesh_text.hpp"
 
 namespace burnish {

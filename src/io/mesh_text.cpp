@@ -1,10 +1,10 @@
 #include "io/mesh_text.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstring>
 #include <limits>
-
-#include "fmt/format.h"
 
 namespace burnish {
 namespace {

@@ -1,12 +1,13 @@
 #include "io/read_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <new>
 
-#include "fmt/format.h"
 #include "io/mesh_build.hpp"
 #include "io/mesh_soup.hpp"
 #include "io/mesh_text.hpp"

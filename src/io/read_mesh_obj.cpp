@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string_view>
 
-#include "fmt/format.h"
 #include "io/mesh_text.hpp"
 
 namespace burnish {

@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <string_view>
 
-#include "fmt/format.h"
 #include "io/mesh_text.hpp"
 
 namespace burnish {

@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 
-#include "fmt/format.h"
 #include "io/mesh_ply_header.hpp"
 #include "io/mesh_text.hpp"
 

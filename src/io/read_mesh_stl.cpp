@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <bit>
 #include <cstring>
 
-#include "fmt/format.h"
 #include "io/mesh_text.hpp"
 
 namespace burnish {

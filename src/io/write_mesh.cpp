@@ -1,5 +1,7 @@
 #include "io/write_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <burnish/error.hpp>
 #include <cstdint>
@@ -7,7 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "fmt/format.h"
 #include "io/atomic_file.hpp"
 
 namespace burnish {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/mesh.hpp>
@@ -6,7 +8,6 @@
 #include <limits>
 
 #include "core/aligned.hpp"
-#include "fmt/format.h"
 
 namespace burnish {
 namespace {

@@ -1,6 +1,6 @@
-#include <burnish/files.hpp>
+#include <fmt/format.h>
 
-#include "fmt/format.h"
+#include <burnish/files.hpp>
 
 namespace burnish {
 namespace {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <burnish/error.hpp>
 #include <burnish/shapes.hpp>
@@ -5,7 +7,6 @@
 #include <cstdint>
 
 #include "core/dmath.hpp"
-#include "fmt/format.h"
 
 namespace burnish::shapes {
 namespace {

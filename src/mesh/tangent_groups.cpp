@@ -1,11 +1,12 @@
 #include "mesh/tangent_groups.hpp"
 
+#include <fmt/format.h>
+
 #include <burnish/error.hpp>
 #include <cmath>
 #include <limits>
 
 #include "core/dmath.hpp"
-#include "fmt/format.h"
 #include "mesh/fans.hpp"
 
 namespace burnish {
