@@ -119,6 +119,15 @@ TEST_F(ImageFiles, FloatFramesReachEXR) {
     EXPECT_EQ(load_image(path("float.exr")).rgba, (std::vector<std::uint8_t>{0, 128, 255, 255}));
 }
 
+TEST_F(ImageFiles, FilesDoNotCarryTheTimeOfWriting) {
+    for (const char* name : {"dated.exr", "dated.tif"}) {
+        save_image(busy_image(8, 8), path(name));
+        EXPECT_NE(read(path(name)).find("1970:01:01 00:00:00"), std::string::npos) << name;
+    }
+    save_image(busy_image(8, 8), path("dated.png"));
+    EXPECT_EQ(read(path("dated.png")).find("tIME"), std::string::npos);
+}
+
 TEST_F(ImageFiles, TruncatedFilesAreErrorsInEveryFormat) {
     const Image8 image = busy_image(64, 64);
     for (const char* name : {"t.png", "t.jpg", "t.tif", "t.exr", "t.bmp", "t.tga"}) {
