@@ -31,12 +31,8 @@ inline float depth_at(const TileTriangle& t, int x, int y) {
     return z < t.z_low ? t.z_low : z > t.z_high ? t.z_high : z;
 }
 
-/// Bounds of a block's depths: the expression is monotone in x and in y even when rounded, so they
-/// are at the corners that the slopes point to.
-inline float nearest_depth(const TileTriangle& t, int x, int y) {
-    constexpr int kLast = kBlockSize - 1;
-    return depth_at(t, t.zx < 0.0F ? x + kLast : x, t.zy < 0.0F ? y + kLast : y);
-}
+/// The expression is monotone in x and in y even when rounded, so its bounds over a block are at
+/// the corners that the slopes point to.
 inline float farthest_depth(const TileTriangle& t, int x, int y) {
     constexpr int kLast = kBlockSize - 1;
     return depth_at(t, t.zx < 0.0F ? x : x + kLast, t.zy < 0.0F ? y : y + kLast);
@@ -59,29 +55,70 @@ EdgeVectors edge_vectors(const TileTriangle& t) {
     return e;
 }
 
-/// Edges that cross a block, with their value at its first pixel; count -1: the block is outside.
+/// Which blocks of the tile a triangle has to be drawn in: bit k for block k.
+struct BlockMasks {
+    std::uint64_t touched = 0;      ///< maybe covered, maybe visible
+    std::uint64_t crossed[3] = {};  ///< edge k runs through the block
+};
+
+/// Classifies the blocks of the bounding box, as many at a time as there are lanes: the tile is 8x8
+/// blocks as a block is 8x8 pixels, so lane positions serve for both.
+BlockMasks classify_blocks(const TileTriangle& t, const EdgeVectors& edges,
+                           const float* block_far) {
+    constexpr int kLast = kBlockSize - 1;
+    constexpr int kSide = kTileSize / kBlockSize;
+    const int first_row = t.y0 / kBlockSize, last_row = t.y1 / kBlockSize;
+    const int first_column = t.x0 / kBlockSize, last_column = t.x1 / kBlockSize;
+    const std::uint64_t columns = (0xffU >> (kSide - 1 - last_column)) & (0xffU << first_column);
+    const std::uint64_t rows = (~std::uint64_t{0} >> (kSide * (kSide - 1 - last_row))) &
+                               (~std::uint64_t{0} << (kSide * first_row));
+    const std::uint64_t box = columns * 0x0101010101010101U & rows;
+    BlockMasks masks;
+    const F32 z0(t.z), zx(t.zx), zy(t.zy), low(t.z_low), high(t.z_high);
+    const I32 corner_x(t.offset_x + (t.zx < 0.0F ? kLast : 0));
+    const I32 corner_y(t.offset_y + (t.zy < 0.0F ? kLast : 0));
+    const int first = first_row / kVectorRows * kRowVectors;
+    const int end = (last_row / kVectorRows + 1) * kRowVectors;
+    for (int v = first; v < end; ++v) {
+        const int shift = v * kLanes32;
+        const std::uint64_t lanes = (std::uint64_t{1} << kLanes32) - 1;
+        std::uint64_t seen = lanes;
+        for (int k = 0; k < t.edges; ++k) {
+            const std::int32_t across = t.a[k] * kLast, down = t.b[k] * kLast;
+            const I32 base = (edges.lanes[k] << 3) + I32(t.c[k] + 8 * edges.step[k][v]);
+            const I32 lowest = base + I32((across < 0 ? across : 0) + (down < 0 ? down : 0));
+            const I32 highest = base + I32((across > 0 ? across : 0) + (down > 0 ? down : 0));
+            seen &= ~static_cast<std::uint64_t>(bits(highest < I32(0)));
+            masks.crossed[k] |= static_cast<std::uint64_t>(bits(lowest < I32(0))) << shift;
+        }
+        if (t.pass_greater == 0) {
+            const I32 x = ((lane_x() + I32(v % kRowVectors * kLanes32)) << 3) + corner_x;
+            const I32 y = ((lane_y() + I32(v / kRowVectors * kVectorRows)) << 3) + corner_y;
+            const F32 nearest = min(max((z0 + to_float(x) * zx) + to_float(y) * zy, low), high);
+            const F32 far = load(block_far + shift);
+            const MaskF hidden = t.pass_equal != 0 ? nearest > far : nearest >= far;
+            seen &= ~static_cast<std::uint64_t>(bits(as_int(hidden)));
+        }
+        masks.touched |= (seen & lanes) << shift;
+    }
+    masks.touched &= box;
+    return masks;
+}
+
+/// Edges that cross a block, with their value at its first pixel.
 struct CrossingEdges {
     int count;
     int edge[3];
     std::int32_t base[3];
 };
-CrossingEdges crossing_edges(const TileTriangle& t, int x, int y) {
+inline CrossingEdges crossing_edges(const TileTriangle& t, const BlockMasks& masks, int block,
+                                    int x, int y) {
     CrossingEdges crossing;
     crossing.count = 0;
     for (int k = 0; k < t.edges; ++k) {
-        const std::int32_t base = t.c[k] + t.a[k] * x + t.b[k] * y;
-        const std::int32_t across = t.a[k] * (kBlockSize - 1), down = t.b[k] * (kBlockSize - 1);
-        const std::int32_t lowest = base + (across < 0 ? across : 0) + (down < 0 ? down : 0);
-        const std::int32_t highest = base + (across > 0 ? across : 0) + (down > 0 ? down : 0);
-        if (highest < 0) {
-            crossing.count = -1;
-            return crossing;
-        }
-        if (lowest < 0) {
-            crossing.edge[crossing.count] = k;
-            crossing.base[crossing.count] = base;
-            ++crossing.count;
-        }
+        if ((masks.crossed[k] >> block & 1) == 0) continue;
+        crossing.edge[crossing.count] = k;
+        crossing.base[crossing.count++] = t.c[k] + t.a[k] * x + t.b[k] * y;
     }
     return crossing;
 }
@@ -157,13 +194,6 @@ void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingE
     }
 }
 
-/// Nothing of the triangle in this block can pass the depth test.
-inline bool hidden(const TileTriangle& t, int x, int y, float far) {
-    if (t.pass_greater != 0) return false;
-    const float nearest = nearest_depth(t, x, y);
-    return t.pass_equal != 0 ? nearest > far : nearest >= far;
-}
-
 /// Upper bound of a block's depths after the triangle was drawn in it.
 inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, float far) {
     if (t.depth_write == 0) return far;
@@ -180,16 +210,15 @@ inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, 
 template <class Rule>
 void rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
     const EdgeVectors edges = edge_vectors(t);
-    for (int y = t.y0 / kBlockSize * kBlockSize; y <= t.y1; y += kBlockSize) {
-        for (int x = t.x0 / kBlockSize * kBlockSize; x <= t.x1; x += kBlockSize) {
-            const CrossingEdges crossing = crossing_edges(t, x, y);
-            const int block = y / kBlockSize * kBlockSize + x / kBlockSize;
-            float& far = ctx.block_far[block];
-            if (crossing.count < 0 || hidden(t, x, y, far)) continue;
-            draw_block<Rule>(t, edges, crossing, x, y, ctx.depth + block * kBlockPixels,
-                             ctx.id + block * kBlockPixels);
-            far = updated_far(t, x, y, crossing.count == 0, far);
-        }
+    const BlockMasks masks = classify_blocks(t, edges, ctx.block_far);
+    for (std::uint64_t rest = masks.touched; rest != 0; rest &= rest - 1) {
+        const int block = __builtin_ctzll(rest);
+        const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
+        const CrossingEdges crossing = crossing_edges(t, masks, block, x, y);
+        draw_block<Rule>(t, edges, crossing, x, y, ctx.depth + block * kBlockPixels,
+                         ctx.id + block * kBlockPixels);
+        float& far = ctx.block_far[block];
+        far = updated_far(t, x, y, crossing.count == 0, far);
     }
 }
 

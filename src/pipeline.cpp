@@ -6,6 +6,7 @@
 #include <burnish/renderer.hpp>
 #include <chrono>
 #include <new>
+#include <numeric>
 
 #include "core/cpu.hpp"
 #include "draw.hpp"
@@ -61,7 +62,7 @@ struct Renderer::State {
     void draw_tiles(const Scene& scene, Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, const Scene& scene,
                    Framebuffer& target, bool first_round, bool last_round);
-    void shade_tile(Worker& worker) const;
+    void shade_tile(Worker& worker, bool first_round) const;
     float* saved_depth(std::int32_t x, std::int32_t y);
 
     const KernelTable& kernels;
@@ -151,6 +152,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target) {
     }
     for (const auto& worker : workers) {
         worker->tiles = 0;
+        worker->image.set_background(scene.background);
         worker->shader.reset_count();
     }
 }
@@ -231,22 +233,22 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         if (first_round) fill_tile(target, visibility.left(), visibility.top(), scene.background);
         return;
     }
-    if (first_round) {
-        worker.image.fill(scene.background);
-    } else {
-        worker.image.load(target, visibility.left(), visibility.top());
-    }
-    shade_tile(worker);
+    if (!first_round) worker.image.load(target, visibility.left(), visibility.top());
+    shade_tile(worker, first_round);
     worker.image.resolve(target, visibility.left(), visibility.top());
 }
 
-void Renderer::State::shade_tile(Worker& worker) const {
+/// Fragments to packets, block by block; background where a block is not filled.
+void Renderer::State::shade_tile(Worker& worker, bool first_round) const {
     const TileVisibility& visibility = worker.visibility;
     const auto triangles = visibility.triangles();
     worker.shader.begin(kernels, visibility.left(), visibility.top(), triangles.size(),
                         store_format(worker.image.format()), worker.image.pixels());
     for (int block = 0; block < kTileBlocks; ++block) {
         visibility.match_block(block, kernels, worker.block);
+        const auto& sizes = worker.block.size;
+        const int shown = std::accumulate(sizes, sizes + worker.block.count, 0);
+        if (first_round && shown < kBlockPixels) worker.image.clear_block(block);
         const std::uint16_t* pixels = worker.block.pixels;
         for (int i = 0; i < worker.block.count; ++i) {
             const std::uint32_t id = worker.block.id[i];

@@ -83,10 +83,18 @@ void for_each_row(const Framebuffer& frame, std::int32_t left, std::int32_t top,
 }  // namespace
 
 TileImage::TileImage(PixelFormat format)
-    : m_format(format), m_pixel_size(pixel_size(format)), m_pixels(kTilePixels * m_pixel_size) {}
+    : m_format(format),
+      m_pixel_size(pixel_size(format)),
+      m_pixels(kTilePixels * m_pixel_size),
+      m_background(kBlockPixels * m_pixel_size) {}
 
-void TileImage::fill(const glm::vec4& color) {
-    repeat_pixel(m_pixels.data(), kTilePixels, encode_pixel(color, m_format), m_pixel_size);
+void TileImage::set_background(const glm::vec4& color) {
+    repeat_pixel(m_background.data(), kBlockPixels, encode_pixel(color, m_format), m_pixel_size);
+}
+
+void TileImage::clear_block(int block) {
+    std::copy(m_background.begin(), m_background.end(),
+              m_pixels.begin() + block * static_cast<std::ptrdiff_t>(m_background.size()));
 }
 
 void TileImage::load(const Framebuffer& frame, std::int32_t left, std::int32_t top) {

@@ -14,7 +14,9 @@ class TileImage {
   public:
     explicit TileImage(PixelFormat format);
 
-    void fill(const glm::vec4& color);
+    /// Sets the pixels of an 8x8 block, 0 .. 63, to the background.
+    void clear_block(int block);
+    void set_background(const glm::vec4& color);
     /// Takes the tile at (left, top) from the frame, and writes it there; cut to the frame.
     void load(const Framebuffer& frame, std::int32_t left, std::int32_t top);
     void resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
@@ -26,6 +28,7 @@ class TileImage {
     PixelFormat m_format;
     std::size_t m_pixel_size;
     AlignedVector<std::byte> m_pixels;
+    AlignedVector<std::byte> m_background;  ///< one block
 };
 
 /// Sets the pixels of the tile at (left, top) to `color`, cut to the frame.
