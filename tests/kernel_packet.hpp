@@ -44,16 +44,15 @@ struct PacketMemory {
     AlignedVector<std::uint16_t> pixels;
     AlignedVector<float> attributes;
     AlignedVector<std::int16_t> planes;
-    AlignedVector<std::int32_t> top, bottom;
+    AlignedVector<std::int32_t> texel;
     AlignedVector<std::int16_t> weight_x, weight_y;
     int count = kPacketSize;
 
     PacketMemory()
-        : pixels(kPacketSize),
+        : pixels(kPacketSize + 16),
           attributes(std::size_t{kAttributes} * kAttributeStride),
           planes(std::size_t{kPlanes} * kPacketSize),
-          top(kPacketSize),
-          bottom(kPacketSize),
+          texel(kPacketSize),
           weight_x(kPacketSize),
           weight_y(kPacketSize) {
         for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint16_t>(i);
@@ -79,7 +78,7 @@ struct PacketMemory {
     void shuffle_pixels(Random& random) {
         std::vector<std::uint16_t> all(kTilePixels);
         for (int i = 0; i < kTilePixels; ++i) all[std::size_t(i)] = static_cast<std::uint16_t>(i);
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
+        for (std::size_t i = 0; i < kPacketSize; ++i) {
             const auto left = static_cast<int>(all.size() - i);
             std::swap(all[i], all[i + static_cast<std::size_t>(random.below(left))]);
             pixels[i] = all[i];
@@ -129,11 +128,6 @@ inline bool contains(const std::vector<int>& list, int value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-template <class T>
-bool all_same(const AlignedVector<T>& a, const AlignedVector<T>& b) {
-    return std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 }  // namespace detail
 
 /// Empty if both packets agree wherever the contract says what must be there, else the first
@@ -142,21 +136,22 @@ inline std::string difference(PacketMemory& got, PacketMemory& want, const Writt
     const int count = want.count;
     const int group = end_of_group(count);
     std::string text;
-    if (!detail::all_same(got.planes, want.planes)) {
-        for (int k = 0; k < PacketMemory::kPlanes && text.empty(); ++k) {
-            if (k == written.trash_plane) continue;
-            const bool out = detail::contains(written.planes, k);
-            text = detail::array_difference("plane", k, got.plane(k), want.plane(k), count,
-                                            out ? group : count, kPacketSize);
-        }
+    for (int k = 0; k < PacketMemory::kPlanes && text.empty(); ++k) {
+        const bool same =
+            std::memcmp(got.plane(k), want.plane(k), kPacketSize * sizeof(std::int16_t)) == 0;
+        if (same || k == written.trash_plane) continue;
+        const int end = detail::contains(written.planes, k) ? group : count;
+        text = detail::array_difference("plane", k, got.plane(k), want.plane(k), count, end,
+                                        kPacketSize);
     }
-    if (!detail::all_same(got.attributes, want.attributes)) {
-        for (int k = 0; k < PacketMemory::kAttributes && text.empty(); ++k) {
-            const bool out = detail::contains(written.attributes, k);
-            text = detail::array_difference("attribute", k, got.attribute(k), want.attribute(k),
-                                            count, out ? std::max(group, count + 16) : count,
-                                            kAttributeStride);
-        }
+    for (int k = 0; k < PacketMemory::kAttributes && text.empty(); ++k) {
+        const bool same =
+            std::memcmp(got.attribute(k), want.attribute(k), kAttributeStride * sizeof(float)) == 0;
+        if (same) continue;
+        const bool out = detail::contains(written.attributes, k);
+        const int end = out ? std::max(group, count + 16) : count;
+        text = detail::array_difference("attribute", k, got.attribute(k), want.attribute(k), count,
+                                        end, kAttributeStride);
     }
     const int end = written.addresses ? group : count;
     const auto compare = [&](const char* what, const auto& g, const auto& w) {
