@@ -21,22 +21,14 @@ get_target_property(xsimd_include xsimd INTERFACE_INCLUDE_DIRECTORIES)
 add_library(burnish_xsimd INTERFACE)
 target_include_directories(burnish_xsimd SYSTEM INTERFACE ${xsimd_include})
 
-# OpenImageIO's package names an Imath target and an OpenCV directory that its core headers do not
-# need and that Debian does not install with it.
-set(OPENIMAGEIO_CONFIG_DO_NOT_FIND_IMATH ON)
-find_package(OpenImageIO 2.4 REQUIRED CONFIG)
-if(NOT TARGET Imath::ImathConfig)
-  add_library(Imath::ImathConfig INTERFACE IMPORTED)
-endif()
-foreach(target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
-  get_target_property(directories ${target} INTERFACE_INCLUDE_DIRECTORIES)
-  set(existing "")
-  foreach(directory IN LISTS directories)
-    if(IS_DIRECTORY "${directory}")
-      list(APPEND existing "${directory}")
-    endif()
-  endforeach()
-  list(REMOVE_DUPLICATES existing)
-  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing}"
-                                             INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "")
-endforeach()
+# OpenImageIO's CMake package insists on its command-line tools, on Imath's Python parts and on the
+# headers of OpenCV, none of which come with the library or are needed here.
+find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
+find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
+find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+mark_as_advanced(OPENIMAGEIO_INCLUDE_DIR OPENIMAGEIO_LIBRARY OPENIMAGEIO_UTIL_LIBRARY)
+add_library(OpenImageIO::OpenImageIO UNKNOWN IMPORTED)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  IMPORTED_LOCATION ${OPENIMAGEIO_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${OPENIMAGEIO_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES ${OPENIMAGEIO_UTIL_LIBRARY})
