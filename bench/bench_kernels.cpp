@@ -260,7 +260,7 @@ constexpr std::int32_t kPitch = 4 * (kTexture + 16);  // bytes
 void add_texels() {
     static std::vector<std::int8_t> texels;
     Random random(4);
-    texels.resize(static_cast<std::size_t>(kPitch * kTexture));
+    texels.resize(static_cast<std::size_t>(kPitch * (kTexture + 1)));
     for (std::int8_t& t : texels) t = static_cast<std::int8_t>(random.between(-128, 127));
     PacketMemory packet;
     // A quarter turn of the texture at one texel per pixel, as four blocks see it.
@@ -290,7 +290,7 @@ void add_texels() {
            1};
     add_packet_stage("address/clamp", &KernelTable::address, packet, ctx, addresses);
 
-    const FetchCtx fetch{texels.data(), 0};
+    const FetchCtx fetch{texels.data(), nullptr, kPitch, 0};
     const Written fetched{.planes = {0, 1, 2, 3}};
     add_packet_stage("fetch_nine_bit", &KernelTable::fetch_nine_bit, packet, fetch, fetched);
     add_packet_stage("fetch_wide", &KernelTable::fetch_wide, packet, fetch, fetched);

@@ -1,26 +1,23 @@
-/// One texture coordinate to texels and weights, both ways of an axis alike.
+/// One texture coordinate to a texel and a weight, both ways of an axis alike.
 struct AxisAddress {
     I32 texel;   ///< 0 .. size - 1
-    I32 next;    ///< its neighbour, 0 .. size - 1
-    I32 weight;  ///< of the neighbour, 0 .. 255
+    I32 weight;  ///< of its neighbour, 0 .. 255
 };
 
 template <AddressMode Mode, bool Linear>
-AxisAddress axis_address(F32 coordinate, std::int32_t size) {
+inline AxisAddress axis_address(F32 coordinate, std::int32_t size) {
     const I32 last(size - 1), zero(0);
     F32 f = coordinate;
     if constexpr (Mode == AddressMode::repeat) f = coordinate - ::xsimd::floor(coordinate);
     f = min(max(f, F32(0.0F)), F32(1.0F));
     const I32 fixed = truncate(f * F32(static_cast<float>(256 * size))) - I32(Linear ? 128 : 0);
-    AxisAddress a{fixed >> 8, zero, Linear ? (fixed & I32(255)) : zero};
+    AxisAddress a{fixed >> 8, Linear ? (fixed & I32(255)) : zero};
     if constexpr (Mode == AddressMode::repeat) {
         a.texel = a.texel + ((a.texel >> 31) & I32(size));
         a.texel = ::xsimd::select(a.texel > last, a.texel - I32(size), a.texel);
-        a.next = ::xsimd::select(a.texel == last, zero, a.texel + I32(1));
     } else {
         a.weight = ::xsimd::select(a.texel < zero, zero, a.weight);
         a.texel = min(max(a.texel, zero), last);
-        a.next = min(a.texel + I32(1), last);
     }
     return a;
 }
@@ -33,7 +30,7 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
     const bool projective = ctx.q >= 0;
     const std::int32_t width = ctx.width, height = ctx.height;
     const I32 pitch(ctx.pitch);
-    std::int32_t *top = packet.top, *bottom = packet.bottom;
+    std::int32_t* const texel = packet.texel;
     std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes32) {
@@ -45,9 +42,7 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
         }
         const AxisAddress x = axis_address<ModeS, Linear>(s, width);
         const AxisAddress y = axis_address<ModeT, Linear>(t, height);
-        const I32 column = x.texel << 2;
-        store(top + i, y.texel * pitch + column);
-        store(bottom + i, y.next * pitch + column);
+        store(texel + i, y.texel * pitch + (x.texel << 2));
         store_narrowed(weight_x + i, x.weight);
         store_narrowed(weight_y + i, y.weight);
     }
@@ -125,27 +120,38 @@ struct FetchWide {
     }
 };
 
+/// Brings the cache lines of another texture at the same addresses on their way; fragments come by
+/// rows of a block, so every fourth one finds most of them.
+inline void prefetch(const std::int8_t* texels, std::int32_t pitch, const std::int32_t* texel) {
+    for (int k = 0; k < kLanes; k += 4) {
+        __builtin_prefetch(texels + texel[k]);
+        __builtin_prefetch(texels + pitch + texel[k]);
+    }
+}
+
 /// 64-bit loads of texel pairs, weighted where they are, transposed to planes. Vector k of four
 /// holds fragments 8 p + 2 k and 8 p + 2 k + 1 in lane p; what comes out is in order.
 template <class Model>
 void fetch(Packet& packet, const FetchCtx& ctx) {
     const FetchPatterns patterns;
-    const std::int8_t* const texels = ctx.texels;
-    const std::int32_t *top = packet.top, *bottom = packet.bottom;
+    const std::int8_t *const upper = ctx.texels, *const lower = ctx.texels + ctx.pitch;
+    const std::int8_t* const next = ctx.next;
+    const std::int32_t pitch = ctx.pitch;
+    const std::int32_t* const texel = packet.texel;
     const std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
     std::int16_t* const out = packet.planes + ctx.plane * kPacketSize;
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes) {
         const I16 wx = load(weight_x + i), wy = load(weight_y + i);
         const I16 weight_bytes = (I16(255) - wx) | (wx << 8);
+        if (next != nullptr) prefetch(next, pitch, texel + i);
         I16 v[4];
         for (int k = 0; k < 4; ++k) {
+            const std::int32_t* at = texel + i + 2 * k;
             const I16 bytes = shuffle_bytes(weight_bytes, patterns.word_pair[k]);
-            const I16 upper =
-                shuffle_bytes(load_pairs(texels, top + i + 2 * k), patterns.interleave);
-            const I16 lower =
-                shuffle_bytes(load_pairs(texels, bottom + i + 2 * k), patterns.interleave);
-            v[k] = Model::combine(lerp_row(upper, bytes), lerp_row(lower, bytes),
+            const I16 top = shuffle_bytes(load_pairs(upper, at), patterns.interleave);
+            const I16 bottom = shuffle_bytes(load_pairs(lower, at), patterns.interleave);
+            v[k] = Model::combine(lerp_row(top, bytes), lerp_row(bottom, bytes),
                                   shuffle_bytes(wy, patterns.word_pair[k]));
         }
         const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);

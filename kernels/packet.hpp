@@ -32,7 +32,7 @@ struct Packet {
     const std::uint16_t* pixels;  ///< index within the tile, 0 .. kTilePixels - 1; no two alike
     float* attributes;            ///< plane k begins at attributes + k * kAttributeStride
     std::int16_t* planes;         ///< register plane k begins at planes + k * kPacketSize
-    std::int32_t* texel;           ///< byte offset of the upper left texel from the first one
+    std::int32_t* texel;          ///< byte offset of the upper left texel from the first one
     std::int16_t* weight_x;       ///< of the right texels, 0 .. 255: 1/256
     std::int16_t* weight_y;       ///< of the lower texels, 0 .. 255: 1/256
 };

@@ -59,9 +59,8 @@ enum class AddressMode : std::uint8_t { repeat, clamp_to_edge };
 /// x = int(f * float(256 * width)) - (linear ? 128 : 0), texel x0 = x >> 8, weight = x & 255.
 /// repeat: x0 < 0 becomes x0 + width, x0 >= width becomes x0 - width.
 /// clamp_to_edge: x0 < 0 becomes 0 with weight 0; x0 >= width becomes width - 1.
-/// Not linear: weight 0. The right neighbour is in memory beside x0 in every case. Rows likewise,
-/// where the lower neighbour is y0 + 1, for y0 = height - 1: 0 (repeat) or y0 (clamp_to_edge).
-/// top = y0 * pitch + 4 * x0, bottom = y1 * pitch + 4 * x0.
+/// Not linear: weight 0. The right and the lower neighbours are in memory beside and below the
+/// texel in every case. Rows likewise. Offset = y0 * pitch + 4 * x0.
 struct AddressCtx {
     int u, v;                           ///< attribute planes
     int q;                              ///< attribute plane, or -1
@@ -70,7 +69,8 @@ struct AddressCtx {
     std::uint8_t linear;
 };
 
-/// Bilinear texels at the packet's addresses: four planes r, g, b, a from `plane` on.
+/// Bilinear texels at the packet's addresses; left and right are 4 bytes apart, the rows one pitch.
+/// Four planes r, g, b, a from `plane` on.
 /// A texel is four signed bytes, value - 128; t below is the value 0 .. 255.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
 ///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
@@ -79,6 +79,9 @@ struct AddressCtx {
 ///   (0 .. 65280), x = v + (v >> 8), code = (x + 2) >> 2.
 struct FetchCtx {
     const std::int8_t* texels;
+    const std::int8_t*
+        next;            ///< texels of what is fetched next at the same addresses, a hint; or null
+    std::int32_t pitch;  ///< bytes
     int plane;
 };
 

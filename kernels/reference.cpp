@@ -225,7 +225,6 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
 
 struct TexelPosition {
     std::int32_t texel;  ///< upper or left
-    std::int32_t next;   ///< lower
     std::int16_t weight;
 };
 
@@ -234,18 +233,16 @@ TexelPosition texel_position(float u, std::int32_t size, AddressMode mode, bool 
     const float f = minimum(maximum(repeat ? u - std::floor(u) : u, 0.0F), 1.0F);
     const std::int32_t fixed =
         static_cast<std::int32_t>(f * static_cast<float>(256 * size)) - (linear ? 128 : 0);
-    TexelPosition p{fixed >> 8, 0, static_cast<std::int16_t>(linear ? fixed & 255 : 0)};
+    TexelPosition p{fixed >> 8, static_cast<std::int16_t>(linear ? fixed & 255 : 0)};
     if (repeat) {
         if (p.texel < 0) p.texel += size;
         if (p.texel >= size) p.texel -= size;
-        p.next = p.texel == size - 1 ? 0 : p.texel + 1;
     } else {
         if (p.texel < 0) {
             p.texel = 0;
             p.weight = 0;
         }
         if (p.texel >= size) p.texel = size - 1;
-        p.next = p.texel == size - 1 ? p.texel : p.texel + 1;
     }
     return p;
 }
@@ -260,8 +257,7 @@ void address(Packet& packet, const AddressCtx& ctx) noexcept {
         }
         const TexelPosition s = texel_position(u, ctx.width, ctx.mode_s, ctx.linear != 0);
         const TexelPosition t = texel_position(v, ctx.height, ctx.mode_t, ctx.linear != 0);
-        packet.top[i] = t.texel * ctx.pitch + 4 * s.texel;
-        packet.bottom[i] = t.next * ctx.pitch + 4 * s.texel;
+        packet.texel[i] = t.texel * ctx.pitch + 4 * s.texel;
         packet.weight_x[i] = s.weight;
         packet.weight_y[i] = t.weight;
     }
@@ -360,9 +356,10 @@ void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
             const auto texel = [&](std::int32_t offset) {
                 return Int{ctx.texels[offset + c]} + 128;
             };
-            const Int value = Model::filter(texel(packet.top[i]), texel(packet.top[i] + 4),
-                                            texel(packet.bottom[i]), texel(packet.bottom[i] + 4),
-                                            packet.weight_x[i], packet.weight_y[i]);
+            const std::int32_t upper = packet.texel[i], lower = upper + ctx.pitch;
+            const Int value =
+                Model::filter(texel(upper), texel(upper + 4), texel(lower), texel(lower + 4),
+                              packet.weight_x[i], packet.weight_y[i]);
             plane(packet, ctx.plane + c)[i] = static_cast<std::int16_t>(value);
         }
     }

@@ -60,9 +60,8 @@ struct PacketMemory {
             attributes[i] = -1000.0F - static_cast<float>(i);
         for (std::size_t i = 0; i < planes.size(); ++i)
             planes[i] = static_cast<std::int16_t>(-20000 - static_cast<int>(i) % 1009);
-        for (std::size_t i = 0; i < top.size(); ++i) {
-            top[i] = -7000 - static_cast<int>(i);
-            bottom[i] = -9000 - static_cast<int>(i);
+        for (std::size_t i = 0; i < texel.size(); ++i) {
+            texel[i] = -7000 - static_cast<int>(i);
             weight_x[i] = static_cast<std::int16_t>(-300 - static_cast<int>(i));
             weight_y[i] = static_cast<std::int16_t>(-600 - static_cast<int>(i));
         }
@@ -71,8 +70,8 @@ struct PacketMemory {
     std::int16_t* plane(int k) { return planes.data() + std::ptrdiff_t{k} * kPacketSize; }
     float* attribute(int k) { return attributes.data() + std::ptrdiff_t{k} * kAttributeStride; }
     Packet view() {
-        return {count,      pixels.data(), attributes.data(), planes.data(),
-                top.data(), bottom.data(), weight_x.data(),   weight_y.data()};
+        return {count,        pixels.data(),   attributes.data(), planes.data(),
+                texel.data(), weight_x.data(), weight_y.data()};
     }
     /// `count` pixels of the tile in any order, no two alike.
     void shuffle_pixels(Random& random) {
@@ -158,8 +157,7 @@ inline std::string difference(PacketMemory& got, PacketMemory& want, const Writt
         if (text.empty())
             text = detail::array_difference(what, 0, g.data(), w.data(), count, end, kPacketSize);
     };
-    compare("top", got.top, want.top);
-    compare("bottom", got.bottom, want.bottom);
+    compare("texel", got.texel, want.texel);
     compare("weight_x", got.weight_x, want.weight_x);
     compare("weight_y", got.weight_y, want.weight_y);
     return text;

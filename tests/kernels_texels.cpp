@@ -69,7 +69,8 @@ AddressCtx random_address(Random& random) {
 void expect_inside(PacketMemory& packet, int end, const AddressCtx& ctx, const std::string& name) {
     for (int i = 0; i < end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        for (const std::int32_t offset : {packet.top[at], packet.bottom[at]}) {
+        const std::int32_t offset = packet.texel[at];
+        {
             ASSERT_TRUE(offset >= 0 && offset / ctx.pitch < ctx.height &&
                         offset % ctx.pitch <= 4 * (ctx.width - 1) && offset % 4 == 0)
                 << name << ", fragment " << i << ": offset " << offset << " in " << ctx.width
@@ -149,10 +150,9 @@ struct TwoRows {
     }
 };
 
-void point_at(PacketMemory& packet, int i, std::int32_t texel, std::int32_t pitch, int wx, int wy) {
+void point_at(PacketMemory& packet, int i, std::int32_t texel, int wx, int wy) {
     const auto at = static_cast<std::size_t>(i);
-    packet.top[at] = 4 * texel;
-    packet.bottom[at] = pitch + 4 * texel;
+    packet.texel[at] = 4 * texel;
     packet.weight_x[at] = static_cast<std::int16_t>(wx);
     packet.weight_y[at] = static_cast<std::int16_t>(wy);
 }
@@ -168,10 +168,10 @@ void check_weights(const KernelTable& table, FetchStage stage) {
         }
     }
     PacketMemory packet;
-    const FetchCtx ctx{texture.bytes.data(), kTexelPlane};
+    const FetchCtx ctx{texture.bytes.data(), nullptr, texture.pitch, kTexelPlane};
     for (int wx = 0; wx < 256; ++wx) {
         for (int x = 0; x < 4; ++x) {
-            for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, x, texture.pitch, wx, i);
+            for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, x, wx, i);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
                 << table.isa << " fetch, weight " << wx << ", texel " << x;
         }
@@ -191,7 +191,7 @@ TEST_P(KernelTest, WideFetchWithEveryPairOfWeights) {
 void check_every_lerp(const KernelTable& table, FetchStage stage) {
     TwoRows texture(511);
     PacketMemory packet;
-    const FetchCtx ctx{texture.bytes.data(), kTexelPlane};
+    const FetchCtx ctx{texture.bytes.data(), nullptr, texture.pitch, kTexelPlane};
     for (int left = 0; left < 256; left += 4) {
         for (int c = 0; c < 4; ++c) {
             for (int x = 0; x < 512; ++x) {
@@ -201,13 +201,12 @@ void check_every_lerp(const KernelTable& table, FetchStage stage) {
         }
         for (int right = 0; right < 256; ++right) {
             for (int i = 0; i < kPacketSize; ++i)
-                point_at(packet, i, 2 * right, texture.pitch, i, right & 1 ? i : 0);
+                point_at(packet, i, 2 * right, i, right & 1 ? i : 0);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
                 << table.isa << " fetch, left " << left << ", right " << right;
         }
         for (int below = 0; below < 256; ++below) {
-            for (int i = 0; i < kPacketSize; ++i)
-                point_at(packet, i, 2 * below, texture.pitch, 0, i);
+            for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, 2 * below, 0, i);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
                 << table.isa << " fetch, above " << left << ", below " << below;
         }
@@ -228,7 +227,7 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
         const int width = random.between(1, 40);
         const int height = random.between(1, 40);
         const std::int32_t pitch = 4 * (width + 1 + random.below(9));
-        std::vector<std::int8_t> texels(static_cast<std::size_t>(pitch * height));
+        std::vector<std::int8_t> texels(static_cast<std::size_t>(pitch * (height + 1)));
         for (std::int8_t& t : texels)
             t = static_cast<std::int8_t>(random.chance(4) ? (random.chance(2) ? -128 : 127)
                                                           : random.between(-128, 127));
@@ -236,12 +235,12 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
         packet.count = random.chance(3) ? kPacketSize : random.between(1, kPacketSize);
         for (std::size_t i = 0; i < kPacketSize; ++i) {
             const int x = 4 * random.below(width);
-            packet.top[i] = random.below(height) * pitch + x;
-            packet.bottom[i] = random.below(height) * pitch + x;
+            packet.texel[i] = random.below(height) * pitch + x;
             packet.weight_x[i] = static_cast<std::int16_t>(random.below(256));
             packet.weight_y[i] = static_cast<std::int16_t>(random.below(256));
         }
-        const FetchCtx ctx{texels.data(), kTexelPlane};
+        const FetchCtx ctx{texels.data(), random.chance(2) ? texels.data() : nullptr, pitch,
+                           kTexelPlane};
         ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
             << table.isa << " fetch, seed " << seed << ", " << width << " x " << height;
     }

@@ -222,7 +222,7 @@ Addressed addressed(const KernelTable& table, float u, AddressMode mode, bool li
     Packet view = packet.view();
     table.address(view, {0, 1, -1, 4, 1, 20, mode, AddressMode::clamp_to_edge,
                          static_cast<std::uint8_t>(linear ? 1 : 0)});
-    return {packet.top[0] / 4, packet.weight_x[0]};
+    return {packet.texel[0] / 4, packet.weight_x[0]};
 }
 
 TEST_P(ReferencePixels, AddressesInARowOfFourTexels) {
@@ -246,18 +246,17 @@ TEST_P(ReferencePixels, FilterRoundsAcrossThenDown) {
     const std::array<std::int8_t, 16> texels{-128, -128, 127, 0, -127, 127, 127, 0,
                                              -128, -128, 127, 0, -128, 127, 127, 0};
     PacketMemory packet;
-    std::fill(packet.top.begin(), packet.top.end(), 0);
-    std::fill(packet.bottom.begin(), packet.bottom.end(), 8);
+    std::fill(packet.texel.begin(), packet.texel.end(), 0);
     std::fill(packet.weight_x.begin(), packet.weight_x.end(), std::int16_t{128});
     packet.weight_y = packet.weight_x;
     packet.count = 1;
     Packet view = packet.view();
-    table().fetch_nine_bit(view, {texels.data(), 0});
+    table().fetch_nine_bit(view, {texels.data(), nullptr, 8, 0});
     // 1/4 comes out as 1: 1/2 rounds up across, then again down. 127.5 rounds up.
     const std::array<int, 4> nine_bit{1, 128, 255, 128};
     for (int c = 0; c < 4; ++c)
         EXPECT_EQ(packet.plane(c)[0], nine_bit[static_cast<std::size_t>(c)]) << "channel " << c;
-    table().fetch_wide(view, {texels.data(), 0});
+    table().fetch_wide(view, {texels.data(), texels.data(), 8, 0});
     // 1/4 * 16384 / 255 = 16.06, 16384 / 2, 16384, 128 * 16384 / 255 = 8224.25
     const std::array<int, 4> wide{16, 8192, 16384, 8224};
     for (int c = 0; c < 4; ++c)

@@ -15,11 +15,10 @@ constexpr std::size_t kPixelSlack = 64;    // kernels read whole vectors
 }  // namespace
 
 PacketShader::PacketShader()
-    : m_pixels(kPacketSize + kPixelSlack), m_weights(2 * kPacketSize), m_offsets(2 * kPacketSize) {
+    : m_pixels(kPacketSize + kPixelSlack), m_weights(2 * kPacketSize), m_texels(kPacketSize) {
     m_runs.reserve(kPacketSize);
     m_packet.pixels = m_pixels.data();
-    m_packet.top = m_offsets.data();
-    m_packet.bottom = m_offsets.data() + kPacketSize;
+    m_packet.texel = m_texels.data();
     m_packet.weight_x = m_weights.data();
     m_packet.weight_y = m_weights.data() + kPacketSize;
     m_attributes.resize(static_cast<std::size_t>(kMaxAttributes) * kAttributeStride);

@@ -60,7 +60,7 @@ class PacketShader {
     AlignedVector<std::uint16_t> m_pixels;
     AlignedVector<float> m_attributes;
     AlignedVector<std::int16_t> m_planes, m_weights;
-    AlignedVector<std::int32_t> m_offsets;
+    AlignedVector<std::int32_t> m_texels;
 
     // Plane equations of the tile's triangles, made when the first of their pixels turns up.
     std::vector<const AttributePlane*> m_planes_by_id;

@@ -185,9 +185,14 @@ class Planner {
             const int plane = m_shading.program.input[reg][0];
             if (!texture || plane < 0) continue;
             const AddressCtx address = address_of(*texture, static_cast<int>(unit));
-            if (m_texture_ops.empty() || !same(last, address)) m_texture_ops.emplace_back(address);
+            if (m_texture_ops.empty() || !same(last, address)) {
+                m_texture_ops.emplace_back(address);
+            } else {
+                std::get<FetchCtx>(m_texture_ops.back()).next = texture->texels();
+            }
             last = address;
-            m_texture_ops.emplace_back(FetchCtx{texture->texels(), plane});
+            m_texture_ops.emplace_back(
+                FetchCtx{texture->texels(), nullptr, texture->pitch(), plane});
         }
     }
 

@@ -48,13 +48,14 @@ Texture::Texture(const Image8& image, const Sampler& sampler)
                         image.rgba.size(), row_bytes * static_cast<std::size_t>(m_height)));
     }
     m_pitch = row_pitch(m_width);
-    m_storage.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(m_height) +
+    m_storage.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(m_height + 1) +
                      kLine);
     const auto address = reinterpret_cast<std::uintptr_t>(m_storage.data());
     std::int8_t* texels = m_storage.data() + (kLine - address % kLine) % kLine;
     const std::size_t extra = m_sampler.wrap_s == Wrap::repeat ? 0 : row_bytes - 4;
-    for (int y = 0; y < m_height; ++y) {
-        const std::uint8_t* from = image.at(0, y);
+    const int last_row = m_sampler.wrap_t == Wrap::repeat ? 0 : m_height - 1;
+    for (int y = 0; y <= m_height; ++y) {
+        const std::uint8_t* from = image.at(0, y < m_height ? y : last_row);
         std::int8_t* to = texels + static_cast<std::ptrdiff_t>(y) * m_pitch;
         for (std::size_t i = 0; i < row_bytes; ++i) to[i] = biased(from[i]);
         for (std::size_t i = 0; i < 4; ++i) to[row_bytes + i] = biased(from[extra + i]);

@@ -39,7 +39,8 @@ struct Sampler {
 /// A texture in the layout that the fetch kernels read. Immutable.
 ///
 /// Texels are stored as four signed bytes (value - 128), each row followed by one extra column (the
-/// first texel again, or the last one when clamping), so that a horizontal pair is one 64-bit load.
+/// first texel again, or the last one when clamping), so that a horizontal pair is one 64-bit load,
+/// and the last row by one extra row likewise, so that the lower pair is one pitch further.
 /// The row pitch is an odd number of cache lines, so that the rows of a block spread over the sets.
 class Texture {
   public:
