@@ -156,11 +156,15 @@ void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingE
         base[k] = edges.lanes[crossing.edge[k]] + I32(crossing.base[k]);
         step[k] = edges.step[crossing.edge[k]];
     }
-    // Vectors that hold no row of the bounding box cannot be covered.
-    const int above = t.y0 > y ? t.y0 - y : 0;
-    const int last_row = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
-    const int first = above / kVectorRows * kRowVectors;
-    const int end = (last_row / kVectorRows + 1) * kRowVectors;
+    // Vectors that hold no row of the bounding box cannot be covered. Where four vectors make a
+    // block the mispredicted end of the loop costs more than they do.
+    int first = 0, end = kBlockVectors;
+    if constexpr (kBlockVectors > 4) {
+        const int above = t.y0 > y ? t.y0 - y : 0;
+        const int last_row = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
+        first = above / kVectorRows * kRowVectors;
+        end = (last_row / kVectorRows + 1) * kRowVectors;
+    }
     for (int v = first; v < end; ++v) {
         const float row = static_cast<float>(y + t.offset_y + v / kRowVectors * kVectorRows);
         const F32 z = min(max(z_row[v % kRowVectors] + (F32(row) + lanes_y) * zy, z_low), z_high);

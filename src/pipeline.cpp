@@ -59,9 +59,9 @@ struct Renderer::State {
     void prepare(const Scene& scene, const Framebuffer& target);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
-    void draw_tiles(const Scene& scene, Framebuffer& target, bool first_round, bool last_round);
-    void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, const Scene& scene,
-                   Framebuffer& target, bool first_round, bool last_round);
+    void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
+    void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
+                   bool first_round, bool last_round);
     void shade_tile(Worker& worker, bool first_round) const;
     float* saved_depth(std::int32_t x, std::int32_t y);
 
@@ -113,7 +113,7 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
             const bool last_round = s.next_range == s.ranges.size();
             if (!last_round) ++stats.flushes;
             const auto tiles = Clock::now();
-            s.draw_tiles(scene, target, first_round, last_round);
+            s.draw_tiles(target, first_round, last_round);
             stats.tiles_ms += milliseconds_since(tiles);
         }
     } catch (const std::bad_alloc&) {
@@ -208,8 +208,7 @@ float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
     return depth.data() + tile * kTilePixels;
 }
 
-void Renderer::State::draw_tiles(const Scene& scene, Framebuffer& target, bool first_round,
-                                 bool last_round) {
+void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool last_round) {
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (!last_round) depth.resize(count * kTilePixels);
@@ -217,20 +216,20 @@ void Renderer::State::draw_tiles(const Scene& scene, Framebuffer& target, bool f
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
         ++worker.tiles;
-        draw_tile(worker, tile % columns, tile / columns, scene, target, first_round, last_round);
+        draw_tile(worker, tile % columns, tile / columns, target, first_round, last_round);
     });
 }
 
 /// Everything of one tile, in one worker's cache: depth and visibility of all triangles, then the
 /// colours of what is visible, then once to the frame.
-void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, const Scene& scene,
-                                Framebuffer& target, bool first_round, bool last_round) {
+void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
+                                bool first_round, bool last_round) {
     TileVisibility& visibility = worker.visibility;
     visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
     for (std::size_t i = 0; i < chunk_count; ++i) visibility.draw(*chunks[i], depth_rules, kernels);
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
     if (visibility.empty()) {
-        if (first_round) fill_tile(target, visibility.left(), visibility.top(), scene.background);
+        if (first_round) worker.image.resolve_empty(target, visibility.left(), visibility.top());
         return;
     }
     if (!first_round) worker.image.load(target, visibility.left(), visibility.top());

@@ -19,11 +19,20 @@ struct ScreenMesh {
     std::span<const std::uint32_t> indices;  ///< three per triangle
 };
 
-/// A triangle with everything that tiles need, stored once: one cache line and a bit.
+/// Pixels, inclusive; empty if x0 > x1 or y0 > y1.
+struct PixelRect {
+    std::int32_t x0, y0, x1, y1;
+};
+
+/// A triangle with everything that tiles need, stored once: two cache lines.
 struct SetupTriangle {
     std::int32_t x[3], y[3];  ///< window, 1/256 pixel; ordered so that the area is positive
-    float z, zx, zy;          ///< depth at the centre of the reference pixel, and per pixel
-    float z_low, z_high;      ///< range of the corners
+    /// Edge i runs from corner i to the next. Inside where a*x + b*y + c >= 0 for pixel (x, y) of
+    /// the frame, a = y[i] - y[next], b = x[next] - x[i]; c includes the top-left rule. |c| < 2^41.
+    std::int64_t c[3];
+    PixelRect box;        ///< pixels whose centres it may cover, cut to the frame
+    float z, zx, zy;      ///< depth at the centre of the reference pixel, and per pixel
+    float z_low, z_high;  ///< range of the corners
     std::int32_t reference_x, reference_y;  ///< pixel inside the frame, near the triangle
     std::uint32_t vertex[3];                ///< of the draw, in the order of x, y; before clipping
     std::uint32_t draw;

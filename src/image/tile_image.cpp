@@ -36,15 +36,6 @@ EncodedPixel encode_pixel(const glm::vec4& color, PixelFormat format) {
     return pixel;
 }
 
-/// Copies what is there already, twice as much every time.
-void repeat_pixel(std::byte* to, std::size_t count, const EncodedPixel& pixel, std::size_t size) {
-    const std::size_t bytes = count * size;
-    std::memcpy(to, pixel.bytes, size);
-    for (std::size_t done = size; done < bytes; done *= 2) {
-        std::memcpy(to + done, to, std::min(done, bytes - done));
-    }
-}
-
 /// Calls f(bytes in the tile, bytes in the frame, size) for the parts of a tile that lie in a row
 /// of a block and in the frame. PixelSize is a constant so that the copies are plain moves.
 template <std::size_t PixelSize, class F>
@@ -89,7 +80,10 @@ TileImage::TileImage(PixelFormat format)
       m_background(kBlockPixels * m_pixel_size) {}
 
 void TileImage::set_background(const glm::vec4& color) {
-    repeat_pixel(m_background.data(), kBlockPixels, encode_pixel(color, m_format), m_pixel_size);
+    const EncodedPixel pixel = encode_pixel(color, m_format);
+    for (std::size_t at = 0; at < m_background.size(); at += m_pixel_size) {
+        std::memcpy(m_background.data() + at, pixel.bytes, m_pixel_size);
+    }
 }
 
 void TileImage::clear_block(int block) {
@@ -111,14 +105,13 @@ void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top)
                  });
 }
 
-void fill_tile(Framebuffer& frame, std::int32_t left, std::int32_t top, const glm::vec4& color) {
-    const std::size_t size = pixel_size(frame.format());
-    const EncodedPixel pixel = encode_pixel(color, frame.format());
+void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
+    static_assert(kBlockPixels == kTileSize, "the background of a block is that of a row");
     const std::int32_t rows = std::min(kTileSize, frame.height() - top);
     const auto columns = static_cast<std::size_t>(std::min(kTileSize, frame.width() - left));
-    for (std::int32_t y = 0; y < rows; ++y) {
-        repeat_pixel(frame.row(top + y) + static_cast<std::size_t>(left) * size, columns, pixel,
-                     size);
+    for (std::int32_t y = top; y < top + rows; ++y) {
+        std::memcpy(frame.row(y) + static_cast<std::size_t>(left) * m_pixel_size,
+                    m_background.data(), columns * m_pixel_size);
     }
 }
 

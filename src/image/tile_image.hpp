@@ -19,6 +19,8 @@ class TileImage {
     void set_background(const glm::vec4& color);
     /// Takes the tile at (left, top) from the frame, and writes it there; cut to the frame.
     void load(const Framebuffer& frame, std::int32_t left, std::int32_t top);
+    /// An empty tile: background straight to the frame.
+    void resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
     void resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
 
     [[nodiscard]] std::byte* pixels() { return m_pixels.data(); }
@@ -28,10 +30,7 @@ class TileImage {
     PixelFormat m_format;
     std::size_t m_pixel_size;
     AlignedVector<std::byte> m_pixels;
-    AlignedVector<std::byte> m_background;  ///< one block
+    AlignedVector<std::byte> m_background;  ///< one block, or one row of the tile
 };
-
-/// Sets the pixels of the tile at (left, top) to `color`, cut to the frame.
-void fill_tile(Framebuffer& frame, std::int32_t left, std::int32_t top, const glm::vec4& color);
 
 }  // namespace burnish

@@ -93,9 +93,9 @@ void Chunk::add_clipped(const ScreenMesh& mesh, SetupTriangle triangle, Facing f
 SetupResult Chunk::add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
                                  const ScreenVertex& v2, SetupTriangle triangle, Facing facing,
                                  FrameSize frame) {
-    PixelRect box{};
-    const SetupResult result = setup_triangle(v0, v1, v2, facing, frame, triangle, box);
+    const SetupResult result = setup_triangle(v0, v1, v2, facing, frame, triangle);
     if (result != SetupResult::drawn) return result;
+    const PixelRect& box = triangle.box;
     const auto index = static_cast<std::uint32_t>(m_triangles.size());
     const std::int32_t x0 = box.x0 / kTileSize, x1 = box.x1 / kTileSize;
     const std::int32_t y0 = box.y0 / kTileSize, y1 = box.y1 / kTileSize;
@@ -104,7 +104,7 @@ SetupResult Chunk::add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
     for (std::int32_t y = y0; y <= y1; ++y) {
         for (std::int32_t x = x0; x <= x1; ++x) {
             TileTriangle seen;
-            if (!one_tile && !tile_triangle(triangle, x, y, frame, seen)) continue;
+            if (!one_tile && !tile_triangle(triangle, x, y, seen)) continue;
             m_unsorted.push_back(
                 {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), index});
         }

@@ -39,23 +39,16 @@ void depth_plane(const ScreenVertex (&v)[3], double area, SetupTriangle& out) {
     out.z_high = std::max({v[0].z, v[1].z, v[2].z});
 }
 
-struct Edge {
-    std::int64_t a, b, c;  ///< inside where a x + b y + c >= 0, x, y in window units
-};
-
-/// From one corner to the next. Pixels on an edge belong to it if it is a left edge (the inside
-/// lies to its right) or a top edge (level, the inside below): the top-left rule.
-Edge edge(const SetupTriangle& t, int from, int to) {
-    Edge e{};
-    e.a = t.y[from] - t.y[to];
-    e.b = t.x[to] - t.x[from];
-    e.c = -e.a * t.x[from] - e.b * t.y[from];
-    const bool top_left = e.a > 0 || (e.a == 0 && e.b > 0);
-    if (!top_left) e.c -= 1;
-    return e;
+/// Value of an edge at the centre of pixel (0, 0) of the frame. In units of 1/65536 the values at
+/// pixel centres differ by multiples of 256, so dividing by 256, rounding down, keeps their signs.
+/// Pixels on an edge belong to the triangle if it is a left edge (the inside lies to its right) or
+/// a top edge (level, the inside below): the top-left rule.
+std::int64_t edge_origin(const SetupTriangle& t, int from, int to) {
+    const std::int64_t a = t.y[from] - t.y[to], b = t.x[to] - t.x[from];
+    const bool top_left = a > 0 || (a == 0 && b > 0);
+    const std::int64_t value = a * (kCentre - t.x[from]) + b * (kCentre - t.y[from]);
+    return (value - (top_left ? 0 : 1)) >> 8;
 }
-
-}  // namespace
 
 PixelRect pixel_box(const SetupTriangle& t, FrameSize frame) {
     const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
@@ -65,8 +58,10 @@ PixelRect pixel_box(const SetupTriangle& t, FrameSize frame) {
             std::min(last_pixel(y_high), frame.height - 1)};
 }
 
+}  // namespace
+
 SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2,
-                           Facing facing, FrameSize frame, SetupTriangle& out, PixelRect& box) {
+                           Facing facing, FrameSize frame, SetupTriangle& out) {
     ScreenVertex v[3] = {v0, v1, v2};
     std::int64_t area = static_cast<std::int64_t>(v1.x - v0.x) * (v2.y - v0.y) -
                         static_cast<std::int64_t>(v1.y - v0.y) * (v2.x - v0.x);
@@ -82,8 +77,9 @@ SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const
         out.x[i] = v[i].x;
         out.y[i] = v[i].y;
     }
-    box = pixel_box(out, frame);
-    if (box.x0 > box.x1 || box.y0 > box.y1) return SetupResult::culled;
+    out.box = pixel_box(out, frame);
+    if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return SetupResult::culled;
+    for (int i = 0; i < 3; ++i) out.c[i] = edge_origin(out, i, (i + 1) % 3);
     out.reference_x = clamp_to(v[0].x >> 8, frame.width);
     out.reference_y = clamp_to(v[0].y >> 8, frame.height);
     depth_plane(v, static_cast<double>(area), out);
@@ -91,33 +87,28 @@ SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const
 }
 
 bool tile_triangle(const SetupTriangle& t, std::int32_t tile_x, std::int32_t tile_y,
-                   FrameSize frame, TileTriangle& out) {
+                   TileTriangle& out) {
     const std::int32_t left = tile_x * kTileSize, top = tile_y * kTileSize;
     constexpr std::int32_t kLast = kTileSize - 1;
-    out.edges = 0;
+    int edges = 0;
     for (int i = 0; i < 3; ++i) {
-        const Edge e = edge(t, i, (i + 1) % 3);
-        const auto a = static_cast<std::int32_t>(e.a), b = static_cast<std::int32_t>(e.b);
-        // The value at a pixel centre is a multiple of 256 plus the one here, so dividing by 256,
-        // rounding down, keeps its sign.
-        const std::int64_t c = (e.a * (static_cast<std::int64_t>(left) * kPixel + kCentre) +
-                                e.b * (static_cast<std::int64_t>(top) * kPixel + kCentre) + e.c) >>
-                               8;
-        const std::int64_t across = static_cast<std::int64_t>(a) * kLast;
-        const std::int64_t down = static_cast<std::int64_t>(b) * kLast;
-        if (c + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0)
-            return false;
-        if (c + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0) continue;
-        out.a[out.edges] = a;
-        out.b[out.edges] = b;
-        out.c[out.edges] = static_cast<std::int32_t>(c);
-        ++out.edges;
+        const int next = i < 2 ? i + 1 : 0;
+        const std::int32_t a = t.y[i] - t.y[next], b = t.x[next] - t.x[i];
+        const std::int64_t c =
+            t.c[i] + static_cast<std::int64_t>(a) * left + static_cast<std::int64_t>(b) * top;
+        const std::int32_t across = a * kLast, down = b * kLast;
+        if (c + std::max(across, 0) + std::max(down, 0) < 0) return false;
+        out.a[edges] = a;
+        out.b[edges] = b;
+        out.c[edges] = static_cast<std::int32_t>(c);
+        // Kept, and not overwritten by the next one, only if it crosses the tile.
+        edges += c + std::min(across, 0) + std::min(down, 0) < 0 ? 1 : 0;
     }
-    const PixelRect box = pixel_box(t, frame);
-    out.x0 = std::max(box.x0 - left, 0);
-    out.y0 = std::max(box.y0 - top, 0);
-    out.x1 = std::min(box.x1 - left, kLast);
-    out.y1 = std::min(box.y1 - top, kLast);
+    out.edges = edges;
+    out.x0 = std::max(t.box.x0 - left, 0);
+    out.y0 = std::max(t.box.y0 - top, 0);
+    out.x1 = std::min(t.box.x1 - left, kLast);
+    out.y1 = std::min(t.box.y1 - top, kLast);
     if (out.x0 > out.x1 || out.y0 > out.y1) return false;
     out.z = t.z;
     out.zx = t.zx;

@@ -50,7 +50,7 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
     for (const std::uint32_t index : chunk.tile(m_tile_x, m_tile_y)) {
         const SetupTriangle& triangle = chunk.triangles()[index];
         TileTriangle& seen = batch[ctx.count];
-        if (!tile_triangle(triangle, m_tile_x, m_tile_y, m_frame, seen)) continue;
+        if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) continue;
         const DepthRule& rule = rules[triangle.draw];
         seen.id = static_cast<std::uint32_t>(m_triangles.size());
         seen.pass_less = rule.pass_less;
