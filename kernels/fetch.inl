@@ -37,8 +37,8 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
         F32 s = load(u + i), t = load(v + i);
         if (projective) {
             const F32 divisor = load(q + i);
-            s = s / divisor;
-            t = t / divisor;
+            s = divide(s, divisor);
+            t = divide(t, divisor);
         }
         const AxisAddress x = axis_address<ModeS, Linear>(s, width);
         const AxisAddress y = axis_address<ModeT, Linear>(t, height);

@@ -18,7 +18,7 @@ struct FinalNineBit {
         const I16 low = a * difference, high = mul_high(a, difference);
         const auto quotient = [](I16 pair) {
             const I32 p = ::xsimd::bitwise_cast<I32>(pair) + I32(127 + 255 * kLift);
-            return truncate(to_float(p) / F32(255.0F)) - I32(kLift);
+            return truncate(divide(to_float(p), F32(255.0F))) - I32(kLift);
         };
         return c + narrow(quotient(zip_lo16(low, high)), quotient(zip_hi16(low, high))) + d;
     }
@@ -95,7 +95,7 @@ void blend(Packet& packet, const FinalCtx& ctx, const PseudoRegisters& pseudo) {
 
 template <class Model>
 void final_combiner(Packet& packet, const FinalCtx& ctx) {
-    PseudoRegisters pseudo;
+    PseudoRegisters pseudo{};
     const int n = group_count(packet);
     if (ctx.uses_color_sum != 0) {
         const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});

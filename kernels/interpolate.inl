@@ -12,7 +12,7 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
             const auto at_pixel = [&](const AttributePlane& plane) {
                 return (F32(plane.origin) + F32(plane.dx) * x) + F32(plane.dy) * y;
             };
-            const F32 w = F32(1.0F) / at_pixel(run.planes[0]);
+            const F32 w = divide(F32(1.0F), at_pixel(run.planes[0]));
             float* out = packet.attributes + i;
             for (int k = 0; k < attribute_count; ++k) {
                 store(out + k * kAttributeStride, at_pixel(run.planes[k + 1]) * w);
@@ -28,7 +28,7 @@ F32 dot(const Vector3& a, const Vector3& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 Vector3 normalised(const Vector3& a) {
-    const F32 scale = F32(1.0F) / ::xsimd::sqrt(dot(a, a));
+    const F32 scale = divide(F32(1.0F), square_root(dot(a, a)));
     return {a.x * scale, a.y * scale, a.z * scale};
 }
 

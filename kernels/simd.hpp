@@ -66,6 +66,22 @@ inline I32 max(I32 a, I32 b) {
     return ::xsimd::max(a, b);
 }
 
+/// Correctly rounded, as IEEE 754 has them: xsimd 8.1 refines estimates on neon64.
+inline F32 divide(F32 a, F32 b) {
+#if defined(__aarch64__)
+    return vdivq_f32(a, b);
+#else
+    return a / b;
+#endif
+}
+inline F32 square_root(F32 a) {
+#if defined(__aarch64__)
+    return vsqrtq_f32(a);
+#else
+    return ::xsimd::sqrt(a);
+#endif
+}
+
 /// Float to int32 towards zero; |v| < 2^31.
 inline I32 truncate(F32 v) {
     return ::xsimd::to_int(v);

@@ -23,7 +23,7 @@ void transform(const TransformCtx& ctx) noexcept {
         // A difference with itself is 0 for finite numbers only.
         const MaskF finite =
             (hx - hx == zero) & (hy - hy == zero) & (hz - hz == zero) & (w - w == zero);
-        const F32 wx = hx / w, wy = hy / w;
+        const F32 wx = divide(hx, w), wy = divide(hy, w);
         const MaskF inside = (w > zero) & (wx >= low) & (wx <= high) & (wy >= low) & (wy <= high);
         I32 code = flag(hx < zero, Outcode::left) | flag(hx > w * width, Outcode::right) |
                    flag(hy < zero, Outcode::above) | flag(hy > w * height, Outcode::below) |
@@ -41,7 +41,7 @@ void transform(const TransformCtx& ctx) noexcept {
         store(sx, snap(wx));
         store(sy, snap(wy));
         store(out, code);
-        store(sz, ::xsimd::select(usable, hz / w, zero));
+        store(sz, ::xsimd::select(usable, divide(hz, w), zero));
         store(ox, hx);
         store(oy, hy);
         store(oz, hz);

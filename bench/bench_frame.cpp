@@ -1,0 +1,204 @@
+// Whole frames and the stages before shading, on scenes named as in docs/performance.md.
+// The frame of every table and thread count is compared with the reference's before it is timed.
+#include <benchmark/benchmark.h>
+
+#include <burnish/materials.hpp>
+#include <burnish/renderer.hpp>
+#include <burnish/shapes.hpp>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "core/cpu.hpp"
+#include "geometry/camera.hpp"
+#include "geometry/clip.hpp"
+#include "raster/bin.hpp"
+#include "raster/tile.hpp"
+
+namespace burnish {
+namespace {
+
+constexpr int kWidth = 1920, kHeight = 1080;
+
+/// S1c: an ellipsoid of 20,448 triangles over 60 % of the frame, the modified model with three
+/// maps, tiled 4 x 2 so that a texel is about a pixel: what two combiners and three units did.
+Scene ellipsoid_scene() {
+    MeshData data = shapes::sphere(144, 72, {1.65F, 1.10F, 1.10F});
+    for (glm::vec2& uv : data.uvs) uv *= glm::vec2(4.0F, 2.0F);
+    Scene scene;
+    scene.width = kWidth;
+    scene.height = kHeight;
+    scene.machine = machine_profile("geforce256");
+    scene.machine.texture_units = 3;
+    scene.lights.push_back({.position = {0.3F, 0.8F, 0.5F}});
+    Material material = brushed_steel();
+    material.ks = glm::vec3(1.0F);
+    material.kd = glm::vec3(0.0F);
+    scene.objects.push_back(
+        {Mesh(data), std::make_shared<Material>(material), glm::mat4(1.0F), {}});
+    return scene;
+}
+
+bool same_frames(const Framebuffer& a, const Framebuffer& b) {
+    for (int y = 0; y < a.height(); ++y) {
+        const auto bytes = static_cast<std::size_t>(a.width()) * pixel_size(a.format());
+        if (std::memcmp(a.row(y), b.row(y), bytes) != 0) return false;
+    }
+    return true;
+}
+
+void frame(benchmark::State& state, const std::string& isa, int threads) {
+    static const Scene scene = ellipsoid_scene();
+    static const Framebuffer want = [] {
+        Framebuffer target(kWidth, kHeight);
+        RendererOptions options;
+        options.isa = "reference";
+        Renderer(options).render(scene, target);
+        return target;
+    }();
+    RendererOptions options;
+    options.isa = isa;
+    options.threads = threads;
+    Renderer renderer(options);
+    Framebuffer target(kWidth, kHeight);
+    const FrameStats stats = renderer.render(scene, target);
+    if (!same_frames(target, want)) return state.SkipWithError("differs from the reference");
+    for (auto _ : state) renderer.render(scene, target);
+    state.counters["covered"] = static_cast<double>(stats.shaded_pixels) / (kWidth * kHeight);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(stats.shaded_pixels));
+}
+
+/// The ellipsoid's vertices on the screen, for the stages after `transform`.
+struct Geometry {
+    Geometry() {
+        const Scene scene = ellipsoid_scene();
+        const Mesh& mesh = std::get<Mesh>(scene.objects[0].geometry);
+        const View view = make_view(scene.camera, kWidth, kHeight);
+        viewport = make_viewport(scene.machine, kWidth, kHeight);
+        TransformCtx ctx{};
+        for (int i = 0; i < 16; ++i)
+            ctx.m[i] = static_cast<float>(view.clip_from_world[i / 4][i % 4]);
+        const auto positions = mesh.positions();
+        ctx.x = positions[0];
+        ctx.y = positions[1];
+        ctx.z = positions[2];
+        ctx.count = static_cast<int>(mesh.vertex_count());
+        ctx.viewport = viewport;
+        screen.resize(mesh.vertex_count());
+        homogeneous.resize(mesh.vertex_count());
+        ctx.screen = screen.data();
+        ctx.homogeneous = homogeneous.data();
+        table_reference().transform(ctx);
+        indices.assign(mesh.indices().begin(), mesh.indices().end());
+    }
+    [[nodiscard]] ScreenMesh mesh() const { return {screen, homogeneous, indices}; }
+
+    Viewport viewport{};
+    std::vector<ScreenVertex> screen;
+    std::vector<HomogeneousVertex> homogeneous;
+    std::vector<std::uint32_t> indices;
+};
+const Geometry& geometry() {
+    static const Geometry g;
+    return g;
+}
+
+void setup(benchmark::State& state) {
+    const Geometry& g = geometry();
+    const auto triangle_at = [&](std::size_t i, SetupTriangle& out) {
+        return setup_triangle(g.screen[g.indices[i]], g.screen[g.indices[i + 1]],
+                              g.screen[g.indices[i + 2]], Facing::any, {kWidth, kHeight}, out);
+    };
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < g.indices.size(); i += 3) {
+            SetupTriangle triangle{};
+            benchmark::DoNotOptimize(triangle_at(i, triangle));
+            benchmark::DoNotOptimize(triangle);
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.indices.size() / 3));
+}
+
+/// All chunks of the mesh, as one worker fills them.
+std::vector<Chunk> bin_all(const Geometry& g, std::vector<Chunk> chunks = {}) {
+    const FrameSize size{kWidth, kHeight};
+    const std::size_t step = chunk_size(size), count = g.indices.size() / 3;
+    chunks.resize((count + step - 1) / step);
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        chunks[i].fill(g.mesh(), 0, Facing::any, i * step, std::min(count, (i + 1) * step),
+                       g.viewport, size);
+    }
+    return chunks;
+}
+
+void bin(benchmark::State& state) {
+    const Geometry& g = geometry();
+    std::vector<Chunk> chunks = bin_all(g);
+    for (auto _ : state) chunks = bin_all(g, std::move(chunks));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.indices.size() / 3));
+}
+
+/// Coverage and depth of every tile of the frame.
+std::uint64_t draw_tiles(const std::vector<Chunk>& chunks, const KernelTable& kernels,
+                         TileVisibility& tile, std::uint64_t hash) {
+    const DepthRule rule{1, 0, 0, 1};
+    const FrameSize size{kWidth, kHeight};
+    for (std::int32_t y = 0; y * kTileSize < kHeight; ++y) {
+        for (std::int32_t x = 0; x * kTileSize < kWidth; ++x) {
+            tile.begin(x, y, size, nullptr);
+            for (const Chunk& chunk : chunks) tile.draw(chunk, {&rule, 1}, kernels);
+            for (int i = 0; hash != 0 && i < kTilePixels; ++i) {
+                std::uint32_t bits = 0;
+                std::memcpy(&bits, tile.depth() + i, sizeof bits);
+                hash = (hash ^ bits) * 0x100000001b3U;
+            }
+        }
+    }
+    return hash;
+}
+
+void tile(benchmark::State& state, const KernelTable* kernels) {
+    const std::vector<Chunk> chunks = bin_all(geometry());
+    TileVisibility visibility;
+    if (draw_tiles(chunks, *kernels, visibility, 1) !=
+        draw_tiles(chunks, table_reference(), visibility, 1)) {
+        return state.SkipWithError("depths differ from the reference");
+    }
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(draw_tiles(chunks, *kernels, visibility, 0));
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() *
+                            static_cast<std::int64_t>(geometry().indices.size() / 3));
+}
+
+void register_all() {
+    benchmark::RegisterBenchmark("raster/setup", setup)->Unit(benchmark::kMicrosecond);
+    benchmark::RegisterBenchmark("raster/bin", bin)->Unit(benchmark::kMicrosecond);
+    for (const KernelTable* table : available_tables()) {
+        const std::string isa = table->isa;
+        benchmark::RegisterBenchmark(("raster/tiles/" + isa).c_str(), tile, table)
+            ->Unit(benchmark::kMicrosecond);
+        if (table == &table_reference()) continue;
+        for (const int threads : {1, 2}) {
+            const std::string name =
+                "frame/S1c_1080p/" + isa + "/threads:" + std::to_string(threads);
+            benchmark::RegisterBenchmark(name.c_str(), frame, isa, threads)
+                ->Unit(benchmark::kMillisecond)
+                ->UseRealTime();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burnish
+
+int main(int argc, char** argv) {
+    burnish::register_all();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::AddCustomContext("isa", burnish::available_tables().front()->isa);
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}
