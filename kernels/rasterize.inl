@@ -38,33 +38,38 @@ inline float farthest_depth(const TileTriangle& t, int x, int y) {
     return depth_at(t, t.zx < 0.0F ? x : x + kLast, t.zy < 0.0F ? y : y + kLast);
 }
 
-struct EdgeVectors {
-    I32 lanes[3];                         ///< a * lane x + b * lane y
-    std::int32_t step[3][kBlockVectors];  ///< from a block's first vector to each of its vectors
+/// What of a triangle's edges is the same in every block. A triangle with fewer than three edges
+/// has edges with a = b = c = 0 in their place, which have everything inside.
+struct TriangleEdges {
+    std::int32_t a[3] = {}, b[3] = {}, c[3] = {};
+    I32 lanes[3][kBlockVectors];  ///< a * x + b * y for the pixels of a block
 };
-EdgeVectors edge_vectors(const TileTriangle& t) {
-    EdgeVectors e;
+inline void set_edges(const TileTriangle& t, TriangleEdges& e) {
     const I32 x = lane_x(), y = lane_y();
-    for (int k = 0; k < t.edges; ++k) {
-        e.lanes[k] = I32(t.a[k]) * x + I32(t.b[k]) * y;
+    for (int k = 0; k < 3; ++k) {
+        if (k < t.edges) {
+            e.a[k] = t.a[k];
+            e.b[k] = t.b[k];
+            e.c[k] = t.c[k];
+        }
+        const I32 first = I32(e.a[k]) * x + I32(e.b[k]) * y;
         for (int v = 0; v < kBlockVectors; ++v) {
-            e.step[k][v] =
-                t.a[k] * (v % kRowVectors * kLanes32) + t.b[k] * (v / kRowVectors * kVectorRows);
+            e.lanes[k][v] = first + I32(e.a[k] * (v % kRowVectors * kLanes32) +
+                                        e.b[k] * (v / kRowVectors * kVectorRows));
         }
     }
-    return e;
 }
 
 /// Which blocks of the tile a triangle has to be drawn in: bit k for block k.
 struct BlockMasks {
-    std::uint64_t touched = 0;      ///< maybe covered, maybe visible
-    std::uint64_t crossed[3] = {};  ///< edge k runs through the block
+    std::uint64_t touched = 0;  ///< maybe covered, maybe visible
+    std::uint64_t crossed = 0;  ///< an edge runs through it
 };
 
 /// Classifies the blocks of the bounding box, as many at a time as there are lanes: the tile is 8x8
 /// blocks as a block is 8x8 pixels, so lane positions serve for both.
-BlockMasks classify_blocks(const TileTriangle& t, const EdgeVectors& edges,
-                           const float* block_far) {
+inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& edges,
+                                  const float* block_far) {
     constexpr int kLast = kBlockSize - 1;
     constexpr int kSide = kTileSize / kBlockSize;
     const int first_row = t.y0 / kBlockSize, last_row = t.y1 / kBlockSize;
@@ -83,14 +88,15 @@ BlockMasks classify_blocks(const TileTriangle& t, const EdgeVectors& edges,
         const int shift = v * kLanes32;
         const std::uint64_t lanes = (std::uint64_t{1} << kLanes32) - 1;
         std::uint64_t seen = lanes;
+        I32 any_low(0);
         for (int k = 0; k < t.edges; ++k) {
-            const std::int32_t across = t.a[k] * kLast, down = t.b[k] * kLast;
-            const I32 base = (edges.lanes[k] << 3) + I32(t.c[k] + 8 * edges.step[k][v]);
-            const I32 lowest = base + I32((across < 0 ? across : 0) + (down < 0 ? down : 0));
+            const std::int32_t across = edges.a[k] * kLast, down = edges.b[k] * kLast;
+            const I32 base = (edges.lanes[k][v] << 3) + I32(edges.c[k]);
             const I32 highest = base + I32((across > 0 ? across : 0) + (down > 0 ? down : 0));
             seen &= ~static_cast<std::uint64_t>(bits(highest < I32(0)));
-            masks.crossed[k] |= static_cast<std::uint64_t>(bits(lowest < I32(0))) << shift;
+            any_low = any_low | (base + I32((across < 0 ? across : 0) + (down < 0 ? down : 0)));
         }
+        masks.crossed |= static_cast<std::uint64_t>(bits(any_low < I32(0))) << shift;
         if (t.pass_greater == 0) {
             const I32 x = ((lane_x() + I32(v % kRowVectors * kLanes32)) << 3) + corner_x;
             const I32 y = ((lane_y() + I32(v / kRowVectors * kVectorRows)) << 3) + corner_y;
@@ -103,24 +109,6 @@ BlockMasks classify_blocks(const TileTriangle& t, const EdgeVectors& edges,
     }
     masks.touched &= box;
     return masks;
-}
-
-/// Edges that cross a block, with their value at its first pixel.
-struct CrossingEdges {
-    int count;
-    int edge[3];
-    std::int32_t base[3];
-};
-inline CrossingEdges crossing_edges(const TileTriangle& t, const BlockMasks& masks, int block,
-                                    int x, int y) {
-    CrossingEdges crossing;
-    crossing.count = 0;
-    for (int k = 0; k < t.edges; ++k) {
-        if ((masks.crossed[k] >> block & 1) == 0) continue;
-        crossing.edge[crossing.count] = k;
-        crossing.base[crossing.count++] = t.c[k] + t.a[k] * x + t.b[k] * y;
-    }
-    return crossing;
 }
 
 /// The usual rule: nearer fragments win and leave their depth.
@@ -139,23 +127,19 @@ struct AnyRule {
     static bool writes(const TileTriangle& t) { return t.depth_write != 0; }
 };
 
-/// Coverage, depth test and visibility of one block that `Edges` edges cross.
-template <int Edges, class Rule>
-void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingEdges& crossing,
-                int x, int y, float* depth, std::uint32_t* id) {
+/// Coverage, depth test and visibility of one block; `Crossed`: an edge runs through it.
+template <bool Crossed, class Rule>
+inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x, int y,
+                       float* depth, std::uint32_t* id) {
     const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
     const I32 new_id(static_cast<std::int32_t>(t.id));
-    const F32 lanes_y = to_float(lane_y());
+    const F32 lanes_y = to_float(lane_y()) + F32(static_cast<float>(y + t.offset_y));
     F32 z_row[kRowVectors];
     for (int k = 0; k < kRowVectors; ++k) {
         z_row[k] = z0 + to_float(lane_x() + I32(x + t.offset_x + k * kLanes32)) * zx;
     }
-    I32 base[Edges > 0 ? Edges : 1];
-    const std::int32_t* step[Edges > 0 ? Edges : 1];
-    for (int k = 0; k < Edges; ++k) {
-        base[k] = edges.lanes[crossing.edge[k]] + I32(crossing.base[k]);
-        step[k] = edges.step[crossing.edge[k]];
-    }
+    I32 base[3];
+    for (int k = 0; k < 3; ++k) base[k] = I32(edges.c[k] + edges.a[k] * x + edges.b[k] * y);
     // Vectors that hold no row of the bounding box cannot be covered. Where four vectors make a
     // block the mispredicted end of the loop costs more than they do.
     int first = 0, end = kBlockVectors;
@@ -166,13 +150,14 @@ void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingE
         end = (last_row / kVectorRows + 1) * kRowVectors;
     }
     for (int v = first; v < end; ++v) {
-        const float row = static_cast<float>(y + t.offset_y + v / kRowVectors * kVectorRows);
-        const F32 z = min(max(z_row[v % kRowVectors] + (F32(row) + lanes_y) * zy, z_low), z_high);
+        // Whole numbers below 2^24: exact, however they are added.
+        const F32 dy = lanes_y + F32(static_cast<float>(v / kRowVectors * kVectorRows));
+        const F32 z = min(max(z_row[v % kRowVectors] + dy * zy, z_low), z_high);
         const F32 old = load(depth + v * kLanes32);
         Mask32 write = as_int(Rule::pass(t, z, old));
-        if constexpr (Edges > 0) {
-            I32 outside = base[0] + I32(step[0][v]);
-            for (int k = 1; k < Edges; ++k) outside = outside | (base[k] + I32(step[k][v]));
+        if constexpr (Crossed) {
+            const I32 outside = (base[0] + edges.lanes[0][v]) | (base[1] + edges.lanes[1][v]) |
+                                (base[2] + edges.lanes[2][v]);
             write = write & (outside >= I32(0));
         }
         auto* ids = reinterpret_cast<std::int32_t*>(id) + v * kLanes32;
@@ -180,21 +165,6 @@ void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingE
         if (Rule::writes(t)) {
             store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
         }
-    }
-}
-
-template <class Rule>
-void draw_block(const TileTriangle& t, const EdgeVectors& edges, const CrossingEdges& crossing,
-                int x, int y, float* depth, std::uint32_t* id) {
-    switch (crossing.count) {
-        case 0:
-            return draw_block<0, Rule>(t, edges, crossing, x, y, depth, id);
-        case 1:
-            return draw_block<1, Rule>(t, edges, crossing, x, y, depth, id);
-        case 2:
-            return draw_block<2, Rule>(t, edges, crossing, x, y, depth, id);
-        default:
-            return draw_block<3, Rule>(t, edges, crossing, x, y, depth, id);
     }
 }
 
@@ -213,16 +183,22 @@ inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, 
 
 template <class Rule>
 void rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
-    const EdgeVectors edges = edge_vectors(t);
+    TriangleEdges edges;
+    set_edges(t, edges);
     const BlockMasks masks = classify_blocks(t, edges, ctx.block_far);
     for (std::uint64_t rest = masks.touched; rest != 0; rest &= rest - 1) {
         const int block = __builtin_ctzll(rest);
         const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
-        const CrossingEdges crossing = crossing_edges(t, masks, block, x, y);
-        draw_block<Rule>(t, edges, crossing, x, y, ctx.depth + block * kBlockPixels,
-                         ctx.id + block * kBlockPixels);
+        const bool crossed = (masks.crossed >> block & 1) != 0;
+        float* const depth = ctx.depth + block * kBlockPixels;
+        std::uint32_t* const id = ctx.id + block * kBlockPixels;
+        if (crossed) {
+            draw_block<true, Rule>(t, edges, x, y, depth, id);
+        } else {
+            draw_block<false, Rule>(t, edges, x, y, depth, id);
+        }
         float& far = ctx.block_far[block];
-        far = updated_far(t, x, y, crossing.count == 0, far);
+        far = updated_far(t, x, y, !crossed, far);
     }
 }
 
@@ -259,8 +235,10 @@ constexpr BitPositions kBitPositions = make_bit_positions();
 /// the last. The sums do not carry from one 16-bit part of a word to the next.
 std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel, std::uint16_t* out) {
     constexpr std::uint64_t kOnes = 0x0001000100010001U;
-    std::uint64_t base = first_pixel * kOnes;
-    for (; mask != 0; mask >>= 8, base += 8 * kOnes) {
+    const int empty_rows = mask != 0 ? __builtin_ctzll(mask) / kBlockSize : 0;
+    std::uint64_t base =
+        (first_pixel + static_cast<std::uint64_t>(empty_rows * kBlockSize)) * kOnes;
+    for (mask >>= empty_rows * kBlockSize; mask != 0; mask >>= 8, base += 8 * kOnes) {
         const std::uint64_t bits = mask & 255;
         std::uint64_t words[2];
         __builtin_memcpy(words, kBitPositions.row[bits], sizeof words);
