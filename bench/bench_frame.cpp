@@ -35,7 +35,7 @@ Scene ellipsoid_scene() {
     material.ks = glm::vec3(1.0F);
     material.kd = glm::vec3(0.0F);
     scene.objects.push_back(
-        {Mesh(data), std::make_shared<Material>(material), glm::mat4(1.0F), {}});
+        {Mesh(data), std::make_shared<Material>(material), glm::mat4(1.0F), {.cull = Cull::back}});
     return scene;
 }
 
