@@ -122,7 +122,7 @@ void setup(benchmark::State& state) {
 /// All chunks of the mesh, as one worker fills them.
 std::vector<Chunk> bin_all(const Geometry& g, std::vector<Chunk> chunks = {}) {
     const FrameSize size{kWidth, kHeight};
-    const std::size_t step = chunk_size(size), count = g.indices.size() / 3;
+    const std::size_t count = g.indices.size() / 3, step = chunk_size(size, count);
     chunks.resize((count + step - 1) / step);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         chunks[i].fill(g.mesh(), 0, Facing::any, i * step, std::min(count, (i + 1) * step),

@@ -137,9 +137,13 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target) {
     draws.resize(scene.objects.size());
     ranges.clear();
     next_range = 0;
-    const std::size_t step = chunk_size(size);
-    for (std::uint32_t i = 0; i < draws.size(); ++i) {
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
         prepare_draw(*draws[i], frame, scene.objects[i], maps);
+        triangles += draws[i]->triangle_count();
+    }
+    const std::size_t step = chunk_size(size, triangles);
+    for (std::uint32_t i = 0; i < draws.size(); ++i) {
         const std::size_t count = draws[i]->triangle_count();
         for (std::size_t first = 0; first < count; first += step) {
             ranges.push_back({i, first, std::min(first + step, count)});
@@ -225,13 +229,15 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
 void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                                 bool first_round, bool last_round) {
     TileVisibility& visibility = worker.visibility;
-    visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
-    for (std::size_t i = 0; i < chunk_count; ++i) visibility.draw(*chunks[i], depth_rules, kernels);
-    if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
-    if (visibility.empty()) {
-        if (first_round) worker.image.resolve_empty(target, visibility.left(), visibility.top());
-        return;
+    const std::span binned(chunks.data(), chunk_count);
+    const bool empty = std::all_of(binned.begin(), binned.end(),
+                                   [&](const auto& chunk) { return chunk->tile(x, y).empty(); });
+    if (empty && first_round && last_round) {
+        return worker.image.resolve_empty(target, x * kTileSize, y * kTileSize);
     }
+    visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+    for (const auto& chunk : binned) visibility.draw(*chunk, depth_rules, kernels);
+    if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
     if (!first_round) worker.image.load(target, visibility.left(), visibility.top());
     shade_tile(worker, first_round);
     worker.image.resolve(target, visibility.left(), visibility.top());

@@ -58,8 +58,8 @@ class Chunk {
     BinCounts m_counts;
 };
 
-/// Triangles per chunk, so that the lists of a worst case (every triangle in every tile) stay
-/// within some 64 MB.
-std::size_t chunk_size(FrameSize frame);
+/// /// Triangles per chunk for a frame of `triangles`: small enough that workers finish together,
+/// and that the lists of a worst case (every triangle in every tile) stay within some 64 MB.
+std::size_t chunk_size(FrameSize frame, std::size_t triangles);
 
 }  // namespace burnish

@@ -47,8 +47,16 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
     TileTriangle batch[kBatch];
     RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data()};
-    for (const std::uint32_t index : chunk.tile(m_tile_x, m_tile_y)) {
-        const SetupTriangle& triangle = chunk.triangles()[index];
+    const std::span<const std::uint32_t> entries = chunk.tile(m_tile_x, m_tile_y);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        constexpr std::size_t kAhead = 4;  // a mesh's triangles lie far apart along a tile
+        if (i + kAhead < entries.size()) {
+            const auto* next =
+                reinterpret_cast<const char*>(&chunk.triangles()[entries[i + kAhead]]);
+            __builtin_prefetch(next);
+            __builtin_prefetch(next + 64);
+        }
+        const SetupTriangle& triangle = chunk.triangles()[entries[i]];
         TileTriangle& seen = batch[ctx.count];
         if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) continue;
         const DepthRule& rule = rules[triangle.draw];

@@ -27,7 +27,6 @@ class TileVisibility {
     /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
     void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);
 
-    [[nodiscard]] bool empty() const { return m_triangles.empty(); }
     /// Triangles drawn so far; the visibility buffer holds indices into these.
     [[nodiscard]] std::span<const SetupTriangle* const> triangles() const { return m_triangles; }
     [[nodiscard]] const float* depth() const { return m_depth.data(); }
