@@ -290,10 +290,18 @@ void add_texels() {
            1};
     add_packet_stage("address/clamp", &KernelTable::address, packet, ctx, addresses);
 
-    const FetchCtx fetch{texels.data(), nullptr, kPitch, 0};
-    const Written fetched{.planes = {0, 1, 2, 3}};
+    FetchCtx fetch{{}, {}, 1, kPitch};
+    for (int k = 0; k < 3; ++k) {
+        fetch.texels[k] = texels.data();
+        fetch.plane[k] = 4 * k;
+    }
+    Written fetched{.planes = {0, 1, 2, 3}};
     add_packet_stage("fetch_nine_bit", &KernelTable::fetch_nine_bit, packet, fetch, fetched);
     add_packet_stage("fetch_wide", &KernelTable::fetch_wide, packet, fetch, fetched);
+    fetch.count = 3;
+    for (int plane = 4; plane < 12; ++plane) fetched.planes.push_back(plane);
+    add_packet_stage("fetch_nine_bit/three_maps", &KernelTable::fetch_nine_bit, packet, fetch,
+                     fetched);
 }
 
 // ---- combiners

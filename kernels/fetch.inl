@@ -120,46 +120,48 @@ struct FetchWide {
     }
 };
 
-/// Brings the cache lines of another texture at the same addresses on their way; fragments come by
-/// rows of a block, so every fourth one finds most of them.
-inline void prefetch(const std::int8_t* texels, std::int32_t pitch, const std::int32_t* texel) {
-    for (int k = 0; k < kLanes; k += 4) {
-        __builtin_prefetch(texels + texel[k]);
-        __builtin_prefetch(texels + pitch + texel[k]);
-    }
-}
-
 /// 64-bit loads of texel pairs, weighted where they are, transposed to planes. Vector k of four
-/// holds fragments 8 p + 2 k and 8 p + 2 k + 1 in lane p; what comes out is in order.
+/// holds fragments 8 p + 2 k and 8 p + 2 k + 1 in lane p; what comes out is in order. Weights and
+/// offsets serve all textures, whose loads are in flight together.
 template <class Model>
 void fetch(Packet& packet, const FetchCtx& ctx) {
     const FetchPatterns patterns;
-    const std::int8_t *const upper = ctx.texels, *const lower = ctx.texels + ctx.pitch;
-    const std::int8_t* const next = ctx.next;
-    const std::int32_t pitch = ctx.pitch;
+    const std::ptrdiff_t pitch = ctx.pitch;
+    const int textures = ctx.count;
+    const std::int8_t* texels[FetchCtx::kMaxTextures];
+    std::int16_t* planes[FetchCtx::kMaxTextures];
+    for (int t = 0; t < textures; ++t) {
+        texels[t] = ctx.texels[t];
+        planes[t] = packet.planes + ctx.plane[t] * kPacketSize;
+    }
     const std::int32_t* const texel = packet.texel;
     const std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
-    std::int16_t* const out = packet.planes + ctx.plane * kPacketSize;
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes) {
         const I16 wx = load(weight_x + i), wy = load(weight_y + i);
         const I16 weight_bytes = (I16(255) - wx) | (wx << 8);
-        if (next != nullptr) prefetch(next, pitch, texel + i);
-        I16 v[4];
+        I16 bytes[4], down[4];
         for (int k = 0; k < 4; ++k) {
-            const std::int32_t* at = texel + i + 2 * k;
-            const I16 bytes = shuffle_bytes(weight_bytes, patterns.word_pair[k]);
-            const I16 top = shuffle_bytes(load_pairs(upper, at), patterns.interleave);
-            const I16 bottom = shuffle_bytes(load_pairs(lower, at), patterns.interleave);
-            v[k] = Model::combine(lerp_row(top, bytes), lerp_row(bottom, bytes),
-                                  shuffle_bytes(wy, patterns.word_pair[k]));
+            bytes[k] = shuffle_bytes(weight_bytes, patterns.word_pair[k]);
+            down[k] = shuffle_bytes(wy, patterns.word_pair[k]);
         }
-        const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);
-        const I16 ba01 = zip_hi32(v[0], v[1]), ba23 = zip_hi32(v[2], v[3]);
-        store(out + i, zip_lo64(rg01, rg23));
-        store(out + kPacketSize + i, zip_hi64(rg01, rg23));
-        store(out + 2 * kPacketSize + i, zip_lo64(ba01, ba23));
-        store(out + 3 * kPacketSize + i, zip_hi64(ba01, ba23));
+        for (int t = 0; t < textures; ++t) {
+            I16 v[4];
+            for (int k = 0; k < 4; ++k) {
+                const std::int32_t* at = texel + i + 2 * k;
+                const I16 top = shuffle_bytes(load_pairs(texels[t], at), patterns.interleave);
+                const I16 bottom =
+                    shuffle_bytes(load_pairs(texels[t] + pitch, at), patterns.interleave);
+                v[k] = Model::combine(lerp_row(top, bytes[k]), lerp_row(bottom, bytes[k]), down[k]);
+            }
+            const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);
+            const I16 ba01 = zip_hi32(v[0], v[1]), ba23 = zip_hi32(v[2], v[3]);
+            std::int16_t* const out = planes[t] + i;
+            store(out, zip_lo64(rg01, rg23));
+            store(out + kPacketSize, zip_hi64(rg01, rg23));
+            store(out + 2 * kPacketSize, zip_lo64(ba01, ba23));
+            store(out + 3 * kPacketSize, zip_hi64(ba01, ba23));
+        }
     }
 }
 void fetch_nine_bit(Packet& packet, const FetchCtx& ctx) noexcept {

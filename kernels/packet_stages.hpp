@@ -69,20 +69,20 @@ struct AddressCtx {
     std::uint8_t linear;
 };
 
-/// Bilinear texels at the packet's addresses; left and right are 4 bytes apart, the rows one pitch.
-/// Four planes r, g, b, a from `plane` on.
+/// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
+/// 4 bytes apart, the rows one pitch. Texture k gives four planes r, g, b, a from plane[k] on.
 /// A texel is four signed bytes, value - 128; t below is the value 0 .. 255.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
 ///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
-/// wide: h = (256 - wx) * t_left + wx * t_right, v = ((256 - wy) * h_top + wy * h_bottom + 128) >>
-/// 8
-///   (0 .. 65280), x = v + (v >> 8), code = (x + 2) >> 2.
+/// wide: h = (256 - wx) * t_left + wx * t_right,
+///   v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8 (0 .. 65280), x = v + (v >> 8),
+///   code = (x + 2) >> 2.
 struct FetchCtx {
-    const std::int8_t* texels;
-    const std::int8_t*
-        next;            ///< texels of what is fetched next at the same addresses, a hint; or null
+    static constexpr int kMaxTextures = 4;
+    const std::int8_t* texels[kMaxTextures];
+    int plane[kMaxTextures];
+    int count;           ///< 1 .. kMaxTextures
     std::int32_t pitch;  ///< bytes
-    int plane;
 };
 
 /// An input of a combiner portion: the register planes of its components and the mapping, by the

@@ -352,15 +352,16 @@ void encode(Packet& packet, const EncodeCtx& ctx) noexcept {
 template <class Model>
 void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
     for (int i = 0; i < packet.count; ++i) {
-        for (int c = 0; c < 4; ++c) {
+        for (int k = 0; k < 4 * ctx.count; ++k) {
+            const int c = k % 4;
             const auto texel = [&](std::int32_t offset) {
-                return Int{ctx.texels[offset + c]} + 128;
+                return Int{ctx.texels[k / 4][offset + c]} + 128;
             };
             const std::int32_t upper = packet.texel[i], lower = upper + ctx.pitch;
             const Int value =
                 Model::filter(texel(upper), texel(upper + 4), texel(lower), texel(lower + 4),
                               packet.weight_x[i], packet.weight_y[i]);
-            plane(packet, ctx.plane + c)[i] = static_cast<std::int16_t>(value);
+            plane(packet, ctx.plane[k / 4] + c)[i] = static_cast<std::int16_t>(value);
         }
     }
 }

@@ -168,7 +168,7 @@ void check_weights(const KernelTable& table, FetchStage stage) {
         }
     }
     PacketMemory packet;
-    const FetchCtx ctx{texture.bytes.data(), nullptr, texture.pitch, kTexelPlane};
+    const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, 1, texture.pitch};
     for (int wx = 0; wx < 256; ++wx) {
         for (int x = 0; x < 4; ++x) {
             for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, x, wx, i);
@@ -191,7 +191,7 @@ TEST_P(KernelTest, WideFetchWithEveryPairOfWeights) {
 void check_every_lerp(const KernelTable& table, FetchStage stage) {
     TwoRows texture(511);
     PacketMemory packet;
-    const FetchCtx ctx{texture.bytes.data(), nullptr, texture.pitch, kTexelPlane};
+    const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, 1, texture.pitch};
     for (int left = 0; left < 256; left += 4) {
         for (int c = 0; c < 4; ++c) {
             for (int x = 0; x < 512; ++x) {
@@ -227,7 +227,8 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
         const int width = random.between(1, 40);
         const int height = random.between(1, 40);
         const std::int32_t pitch = 4 * (width + 1 + random.below(9));
-        std::vector<std::int8_t> texels(static_cast<std::size_t>(pitch * (height + 1)));
+        std::vector<std::int8_t> texels(
+            static_cast<std::size_t>(pitch * (height + 1) + 4 * FetchCtx::kMaxTextures));
         for (std::int8_t& t : texels)
             t = static_cast<std::int8_t>(random.chance(4) ? (random.chance(2) ? -128 : 127)
                                                           : random.between(-128, 127));
@@ -239,9 +240,14 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
             packet.weight_x[i] = static_cast<std::int16_t>(random.below(256));
             packet.weight_y[i] = static_cast<std::int16_t>(random.below(256));
         }
-        const FetchCtx ctx{texels.data(), random.chance(2) ? texels.data() : nullptr, pitch,
-                           kTexelPlane};
-        ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
+        FetchCtx ctx{{}, {}, random.between(1, FetchCtx::kMaxTextures), pitch};
+        Written written;
+        for (int k = 0; k < ctx.count; ++k) {  // overlapping textures are textures, too
+            ctx.texels[k] = texels.data() + 4 * k;
+            ctx.plane[k] = kTexelPlane - 5 * k;
+            for (int c = 0; c < 4; ++c) written.planes.push_back(ctx.plane[k] + c);
+        }
+        ASSERT_EQ(stage_difference(table, stage, packet, ctx, written), "")
             << table.isa << " fetch, seed " << seed << ", " << width << " x " << height;
     }
 }

@@ -176,7 +176,21 @@ class Planner {
                a.mode_t == b.mode_t && a.linear == b.linear;
     }
 
-    /// Addresses are made once for units in a row that share coordinates, size and sampler.
+    /// Addresses are made once for units in a row that share coordinates, size and sampler, and
+    /// their texels fetched together.
+    void add_fetch(const AddressCtx& address, const Texture& texture, int plane,
+                   const AddressCtx& last) {
+        const bool shares = !m_texture_ops.empty() && same(last, address);
+        if (!shares) m_texture_ops.emplace_back(address);
+        auto* fetch = shares ? &std::get<FetchCtx>(m_texture_ops.back()) : nullptr;
+        if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
+            m_texture_ops.emplace_back(FetchCtx{{}, {}, 0, texture.pitch()});
+            fetch = &std::get<FetchCtx>(m_texture_ops.back());
+        }
+        fetch->texels[fetch->count] = texture.texels();
+        fetch->plane[fetch->count++] = plane;
+    }
+
     void plan_textures() {
         AddressCtx last{};
         for (std::size_t unit = 0; unit < m_shading.textures.size(); ++unit) {
@@ -185,14 +199,8 @@ class Planner {
             const int plane = m_shading.program.input[reg][0];
             if (!texture || plane < 0) continue;
             const AddressCtx address = address_of(*texture, static_cast<int>(unit));
-            if (m_texture_ops.empty() || !same(last, address)) {
-                m_texture_ops.emplace_back(address);
-            } else {
-                std::get<FetchCtx>(m_texture_ops.back()).next = texture->texels();
-            }
+            add_fetch(address, *texture, plane, last);
             last = address;
-            m_texture_ops.emplace_back(
-                FetchCtx{texture->texels(), nullptr, texture->pitch(), plane});
         }
     }
 
