@@ -125,8 +125,8 @@ std::vector<Chunk> bin_all(const Geometry& g, std::vector<Chunk> chunks = {}) {
     const std::size_t count = g.indices.size() / 3, step = chunk_size(size, count);
     chunks.resize((count + step - 1) / step);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
-        chunks[i].fill(g.mesh(), 0, Facing::any, i * step, std::min(count, (i + 1) * step),
-                       g.viewport, size);
+        chunks[i].fill({g.mesh(), 0, Facing::any, g.viewport, size}, i * step,
+                       std::min(count, (i + 1) * step));
     }
     return chunks;
 }

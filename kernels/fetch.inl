@@ -100,19 +100,18 @@ I16 lerp_row(I16 texels, I16 weight_bytes) {
 
 /// Vertical lerp and number format of the nine-bit model.
 struct FetchNineBit {
-    static I16 combine(I16 top, I16 bottom, I16 weight_y) {
+    static I16 combine(I16 top, I16 bottom, I16 weight_top, I16 weight_bottom) {
         // 0x8080: back from value - 128 in 1/256, plus one half.
         const I16 bias(static_cast<std::int16_t>(0x8080));
         const I16 t = shift_right_logical(top + bias, 8), b = shift_right_logical(bottom + bias, 8);
-        return shift_right_logical(t * (I16(256) - weight_y) + b * weight_y + I16(128), 8);
+        return shift_right_logical(t * weight_top + b * weight_bottom + I16(128), 8);
     }
 };
 
 struct FetchWide {
-    static I16 combine(I16 top, I16 bottom, I16 weight_y) {
-        const I16 rest = I16(256) - weight_y;
-        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), zip_lo16(rest, weight_y));
-        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), zip_hi16(rest, weight_y));
+    static I16 combine(I16 top, I16 bottom, I16 weight_top, I16 weight_bottom) {
+        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), zip_lo16(weight_top, weight_bottom));
+        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), zip_hi16(weight_top, weight_bottom));
         const I16 v = narrow((lo + I32(128)) >> 8, (hi + I32(128)) >> 8) ^
                       I16(static_cast<std::int16_t>(0x8000));
         const I16 x = v + shift_right_logical(v, 8);
@@ -140,10 +139,11 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
     for (int i = 0; i < n; i += kLanes) {
         const I16 wx = load(weight_x + i), wy = load(weight_y + i);
         const I16 weight_bytes = (I16(255) - wx) | (wx << 8);
-        I16 bytes[4], down[4];
+        I16 bytes[4], up[4], down[4];
         for (int k = 0; k < 4; ++k) {
             bytes[k] = shuffle_bytes(weight_bytes, patterns.word_pair[k]);
             down[k] = shuffle_bytes(wy, patterns.word_pair[k]);
+            up[k] = I16(256) - down[k];
         }
         for (int t = 0; t < textures; ++t) {
             I16 v[4];
@@ -152,7 +152,8 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
                 const I16 top = shuffle_bytes(load_pairs(texels[t], at), patterns.interleave);
                 const I16 bottom =
                     shuffle_bytes(load_pairs(texels[t] + pitch, at), patterns.interleave);
-                v[k] = Model::combine(lerp_row(top, bytes[k]), lerp_row(bottom, bytes[k]), down[k]);
+                v[k] = Model::combine(lerp_row(top, bytes[k]), lerp_row(bottom, bytes[k]), up[k],
+                                      down[k]);
             }
             const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);
             const I16 ba01 = zip_hi32(v[0], v[1]), ba23 = zip_hi32(v[2], v[3]);

@@ -188,8 +188,8 @@ void Renderer::State::bin(FrameStats& stats) {
             if (i >= left) return;
             const ChunkRange& range = ranges[first + i];
             const Draw& draw = *draws[range.draw];
-            chunks[i]->fill(draw.mesh(), range.draw, draw.facing, range.first, range.last,
-                            frame.viewport, size);
+            chunks[i]->fill({draw.mesh(), range.draw, draw.facing, frame.viewport, size},
+                            range.first, range.last);
             bytes.fetch_add(chunks[i]->bytes(), std::memory_order_relaxed);
         }
     });

@@ -35,74 +35,77 @@ std::span<const std::uint32_t> Chunk::tile(std::int32_t x, std::int32_t y) const
     return std::span(m_entries).subspan(m_first[at], m_first[at + 1] - m_first[at]);
 }
 
-void Chunk::fill(const ScreenMesh& mesh, std::uint32_t draw, Facing facing, std::size_t first,
-                 std::size_t last, const Viewport& viewport, FrameSize frame) {
+void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last) {
     m_triangles.clear();
     m_unsorted.clear();
     m_counts = {};
     m_counts.submitted = last - first;
-    for (std::size_t t = first; t < last; ++t) {
-        const std::uint32_t vertex[3] = {mesh.indices[3 * t], mesh.indices[3 * t + 1],
-                                         mesh.indices[3 * t + 2]};
-        add(mesh, vertex, draw, facing, viewport, frame);
+    const auto& indices = source.mesh.indices;
+    for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
+        add(source, {indices[i], indices[i + 1], indices[i + 2]});
     }
     m_counts.binned = m_triangles.size();
-    sort_into_tiles(frame);
+    sort_into_tiles(source.frame);
 }
 
-void Chunk::add(const ScreenMesh& mesh, const std::uint32_t (&vertex)[3], std::uint32_t draw,
-                Facing facing, const Viewport& viewport, FrameSize frame) {
-    const ScreenVertex &v0 = mesh.screen[vertex[0]], &v1 = mesh.screen[vertex[1]],
-                       &v2 = mesh.screen[vertex[2]];
+void Chunk::add(const ChunkSource& source, const TriangleVertices& vertex) {
+    const auto& screen = source.mesh.screen;
+    const ScreenVertex &v0 = screen[vertex[0]], &v1 = screen[vertex[1]], &v2 = screen[vertex[2]];
     const std::uint32_t any = v0.outcode | v1.outcode | v2.outcode;
     if ((any & Outcode::nonfinite) != 0) {
         ++m_counts.nonfinite;
         return;
     }
     if ((v0.outcode & v1.outcode & v2.outcode & Outcode::frustum) != 0) return;
-    SetupTriangle triangle{};
-    std::copy(std::begin(vertex), std::end(vertex), triangle.vertex);
-    triangle.draw = draw;
-    if ((any & Outcode::needs_clip) != 0) {
-        add_clipped(mesh, triangle, facing, viewport, frame);
-    } else if (add_projected(v0, v1, v2, triangle, facing, frame) == SetupResult::degenerate) {
-        ++m_counts.degenerate;
-    }
+    if ((any & Outcode::needs_clip) != 0) return add_clipped(source, vertex);
+    const SetupResult result = add_projected(source, vertex, false, v0, v1, v2);
+    if (result == SetupResult::degenerate) ++m_counts.degenerate;
 }
 
-void Chunk::add_clipped(const ScreenMesh& mesh, SetupTriangle triangle, Facing facing,
-                        const Viewport& viewport, FrameSize frame) {
-    const auto homogeneous = [&](int i) { return mesh.homogeneous[triangle.vertex[i]]; };
-    const ClipPolygon polygon = clip_triangle(homogeneous(0), homogeneous(1), homogeneous(2));
+void Chunk::add_clipped(const ChunkSource& source, const TriangleVertices& vertex) {
+    const auto& homogeneous = source.mesh.homogeneous;
+    const ClipPolygon polygon =
+        clip_triangle(homogeneous[vertex[0]], homogeneous[vertex[1]], homogeneous[vertex[2]]);
     if (polygon.count == 0) return;
     ++m_counts.clipped;
-    triangle.clipped = 1;
     ScreenVertex corners[ClipPolygon::kMaxCorners];
     for (int i = 0; i < polygon.count; ++i) {
         const ClipVertex& v = polygon.corner[static_cast<std::size_t>(i)];
         // A corner of the triangle keeps the position that its neighbours see.
         if (v.original >= 0) {
-            corners[i] = mesh.screen[triangle.vertex[v.original]];
+            corners[i] = source.mesh.screen[vertex[static_cast<std::size_t>(v.original)]];
             if ((corners[i].outcode & Outcode::needs_clip) == 0) continue;
         }
-        if (!project(v, viewport, corners[i])) return;
+        if (!project(v, source.viewport, corners[i])) return;
     }
     for (int i = 2; i < polygon.count; ++i) {
-        add_projected(corners[0], corners[i - 1], corners[i], triangle, facing, frame);
+        add_projected(source, vertex, true, corners[0], corners[i - 1], corners[i]);
     }
 }
 
-SetupResult Chunk::add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
-                                 const ScreenVertex& v2, SetupTriangle triangle, Facing facing,
-                                 FrameSize frame) {
-    const SetupResult result = setup_triangle(v0, v1, v2, facing, frame, triangle);
-    if (result != SetupResult::drawn) return result;
-    const PixelRect& box = triangle.box;
+SetupResult Chunk::add_projected(const ChunkSource& source, const TriangleVertices& vertex,
+                                 bool clipped, const ScreenVertex& v0, const ScreenVertex& v1,
+                                 const ScreenVertex& v2) {
     const auto index = static_cast<std::uint32_t>(m_triangles.size());
+    SetupTriangle& triangle = m_triangles.emplace_back();
+    std::copy(vertex.begin(), vertex.end(), triangle.vertex);
+    triangle.draw = source.draw;
+    triangle.clipped = clipped ? 1 : 0;
+    SetupResult result = setup_triangle(v0, v1, v2, source.facing, source.frame, triangle);
+    const std::size_t before = m_unsorted.size();
+    if (result == SetupResult::drawn) {
+        add_to_tiles(triangle, index);
+        if (m_unsorted.size() == before) result = SetupResult::culled;
+    }
+    if (result != SetupResult::drawn) m_triangles.pop_back();
+    return result;
+}
+
+void Chunk::add_to_tiles(const SetupTriangle& triangle, std::uint32_t index) {
+    const PixelRect& box = triangle.box;
     const std::int32_t x0 = box.x0 / kTileSize, x1 = box.x1 / kTileSize;
     const std::int32_t y0 = box.y0 / kTileSize, y1 = box.y1 / kTileSize;
     const bool one_tile = x0 == x1 && y0 == y1;
-    const std::size_t before = m_unsorted.size();
     for (std::int32_t y = y0; y <= y1; ++y) {
         for (std::int32_t x = x0; x <= x1; ++x) {
             TileTriangle seen;
@@ -111,9 +114,6 @@ SetupResult Chunk::add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
                 {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), index});
         }
     }
-    if (m_unsorted.size() == before) return SetupResult::culled;
-    m_triangles.push_back(triangle);
-    return result;
 }
 
 /// Counting sort over the rectangle of tiles that the chunk touches; stable, so order is kept.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,14 +20,25 @@ struct BinCounts {
     std::uint64_t binned = 0;
 };
 
+/// Where a chunk's triangles come from and where they go.
+struct ChunkSource {
+    ScreenMesh mesh;
+    std::uint32_t draw;  ///< number within the frame
+    Facing facing;
+    Viewport viewport;
+    FrameSize frame;
+};
+
+/// Vertices of the draw at the corners of a triangle.
+using TriangleVertices = std::array<std::uint32_t, 3>;
+
 /// Consecutive triangles of one draw, set up and sorted into the tiles that they touch. Chunks are
 /// filled in parallel and read in order, so no image depends on the schedule. Memory is kept for
 /// the next frame.
 class Chunk {
   public:
-    /// Triangles `first` .. `last` - 1 of `mesh`.
-    void fill(const ScreenMesh& mesh, std::uint32_t draw, Facing facing, std::size_t first,
-              std::size_t last, const Viewport& viewport, FrameSize frame);
+    /// Triangles `first` .. `last` - 1 of the source.
+    void fill(const ChunkSource& source, std::size_t first, std::size_t last);
 
     /// Triangles that touch the tile at (x, y), in submission order: indices into `triangles()`.
     [[nodiscard]] std::span<const std::uint32_t> tile(std::int32_t x, std::int32_t y) const;
@@ -36,13 +48,12 @@ class Chunk {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    void add(const ScreenMesh& mesh, const std::uint32_t (&vertex)[3], std::uint32_t draw,
-             Facing facing, const Viewport& viewport, FrameSize frame);
-    void add_clipped(const ScreenMesh& mesh, SetupTriangle triangle, Facing facing,
-                     const Viewport& viewport, FrameSize frame);
-    SetupResult add_projected(const ScreenVertex& v0, const ScreenVertex& v1,
-                              const ScreenVertex& v2, SetupTriangle triangle, Facing facing,
-                              FrameSize frame);
+    void add(const ChunkSource& source, const TriangleVertices& vertex);
+    void add_clipped(const ChunkSource& source, const TriangleVertices& vertex);
+    SetupResult add_projected(const ChunkSource& source, const TriangleVertices& vertex,
+                              bool clipped, const ScreenVertex& v0, const ScreenVertex& v1,
+                              const ScreenVertex& v2);
+    void add_to_tiles(const SetupTriangle& triangle, std::uint32_t index);
     void sort_into_tiles(FrameSize frame);
 
     struct TileEntry {
@@ -58,7 +69,7 @@ class Chunk {
     BinCounts m_counts;
 };
 
-/// /// Triangles per chunk for a frame of `triangles`: small enough that workers finish together,
+/// Triangles per chunk for a frame of `triangles`: small enough that workers finish together,
 /// and that the lists of a worst case (every triangle in every tile) stay within some 64 MB.
 std::size_t chunk_size(FrameSize frame, std::size_t triangles);
 
