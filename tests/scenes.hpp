@@ -1,0 +1,215 @@
+#pragma once
+
+#include <burnish/renderer.hpp>
+#include <burnish/shapes.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// Named scenes whose pictures are pinned. Their maps come from here, not from the default
+/// material, which may become more beautiful.
+namespace burnish::scenes {
+
+/// One texel of noise, 0 .. 255, the same on every machine.
+inline std::uint8_t noise(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+    std::uint32_t h = x * 0x9e3779b1U ^ y * 0x85ebca77U ^ channel * 0xc2b2ae3dU;
+    h = (h ^ h >> 15) * 0x2c1b3c6dU;
+    h = (h ^ h >> 12) * 0x297a2d39U;
+    return static_cast<std::uint8_t>(h >> 24);
+}
+
+/// A map around `base` that varies by `spread` along v and little along u, as brush marks do.
+inline TexturePtr streaks(int width, int height, std::array<int, 4> base, int spread,
+                          const Sampler& sampler = {}) {
+    Image8 image(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            for (int c = 0; c < 4; ++c) {
+                const auto column = static_cast<std::uint32_t>(x / 16);
+                const int offset =
+                    noise(column, static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(c)) *
+                    spread / 255;
+                const int value = base[static_cast<std::size_t>(c)] + offset - spread / 2;
+                image.at(x, y)[c] = static_cast<std::uint8_t>(value < 0     ? 0
+                                                              : value > 255 ? 255
+                                                                            : value);
+            }
+        }
+    }
+    return std::make_shared<Texture>(image, sampler);
+}
+
+/// Maps of t / alpha_x and b / alpha_y at a quarter of their length, and a tinted ks.
+inline std::shared_ptr<Material> brushed() {
+    auto material = std::make_shared<Material>();
+    material->name = "test-brushed";
+    material->kd = {0.20F, 0.19F, 0.18F};
+    material->ks = {0.9F, 0.9F, 0.9F};
+    material->map_scale = 0.25F;
+    material->tangent_map = streaks(96, 64, {240, 128, 128, 220}, 24);
+    material->bitangent_map = streaks(96, 64, {128, 180, 140, 255}, 60);
+    material->specular_map = streaks(96, 64, {220, 210, 190, 255}, 60);
+    return material;
+}
+
+inline Scene lit_scene(const Machine& machine, int width, int height) {
+    Scene scene;
+    scene.width = width;
+    scene.height = height;
+    scene.machine = machine;
+    scene.ambient = {0.05F, 0.05F, 0.06F};
+    const float grey = 46.0F / 255.0F;  // a code of every format
+    scene.background = {grey, grey, grey, 1.0F};
+    scene.lights.push_back({.position = {-0.4F, 0.8F, 0.9F}, .color = {1.0F, 0.95F, 0.9F}});
+    return scene;
+}
+
+inline Scene knot() {
+    Scene scene = lit_scene(machine_profile("ideal"), 320, 240);
+    scene.camera.position = {0.6F, 0.5F, 3.6F};
+    scene.objects.push_back({Mesh(shapes::torus_knot(200, 24)), brushed(), glm::mat4(1.0F), {}});
+    return scene;
+}
+
+inline Scene ellipsoid() {
+    Machine machine = machine_profile("geforce256");
+    machine.texture_units = 3;
+    Scene scene = lit_scene(machine, 320, 240);
+    scene.lights[0].color = glm::vec3(1.0F);
+    scene.objects.push_back(
+        {Mesh(shapes::sphere(64, 32, {1.4F, 1.0F, 1.0F})), brushed(), glm::mat4(1.0F), {}});
+    return scene;
+}
+
+/// One million triangles, most of them smaller than a pixel.
+inline Scene million() {
+    Scene scene = lit_scene(machine_profile("nv2a"), 512, 512);
+    scene.lights[0].color = glm::vec3(1.0F);
+    scene.objects.push_back({Mesh(shapes::sphere(1000, 501)), brushed(), glm::mat4(1.0F), {}});
+    return scene;
+}
+
+/// A floor that passes under the camera and behind it, a ball cut by the near plane, and a wall so
+/// close to the eye and so wide that its far corners leave the guard band.
+inline Scene near_plane() {
+    Scene scene = lit_scene(machine_profile("ideal"), 300, 200);
+    scene.camera.position = {0.0F, 0.6F, 1.0F};
+    scene.camera.focal_point = {0.0F, 0.3F, -3.0F};
+    scene.camera.near = 0.05F;
+    const auto material = brushed();
+    scene.objects.push_back({Mesh(shapes::plane(7, 5)),
+                             material,
+                             placement({0.0F, -0.2F, 0.0F}, {1.0F, 0.0F, 0.0F}, -90.0F, 60.0F),
+                             {}});
+    scene.objects.push_back({Mesh(shapes::sphere(24, 12)),
+                             material,
+                             placement({-0.11F, 0.52F, 0.88F}, {0.0F, 1.0F, 0.0F}, 20.0F, 0.09F),
+                             {}});
+    scene.objects.push_back({Mesh(shapes::plane(3, 3)),
+                             material,
+                             placement({150.1F, 100.5F, 0.4F}, {0.0F, 1.0F, 0.0F}, -0.05F, 300.0F),
+                             {.depth_test = DepthTest::lequal}});
+    return scene;
+}
+
+/// Program with both portions, dot, mux, expand, half bias, scale, bias, colour sum and E*F.
+inline CombinerProgram busy_program() {
+    using namespace combine;
+    ProgramBuilder p;
+    p.constants({0.25F, 0.5F, 0.75F, 0.3F}, {0.9F, 0.2F, 0.4F, 0.6F});
+    p.stage()
+        .rgb()
+        .ab(dot(expand(Register::col0), expand(tex(0))), Register::spare1)
+        .cd(mul(half_bias(Register::col0), invert(Register::const0)), tex(1))
+        .scale(Scale::two);
+    p.alpha()
+        .ab(mul(alpha(in(Register::col0)), alpha(one())), Register::spare0)
+        .cd(mul(alpha(in(tex(0))), blue(in(Register::const1))), Register::spare1);
+    p.stage()
+        .rgb()
+        .ab(mul(in(Register::spare1), in(Register::const1)))
+        .cd(mul(in(tex(0)), one()))
+        .mux(Register::spare1);
+    p.stage()
+        .rgb()
+        .ab(mul(in(Register::spare1), one()))
+        .cd(mul(in(tex(1)), one()))
+        .sum(Register::spare0)
+        .bias();
+    p.product(raw(Register::col1), raw(tex(0)));
+    p.lerp(alpha(raw(Register::spare1)), raw(Register::color_sum), raw(Register::final_product),
+           raw(Register::const0));
+    p.out_alpha(blue(raw(Register::spare1)));
+    return p.build();
+}
+
+inline RawVertex corner(glm::vec4 position, glm::vec4 color, glm::vec2 uv) {
+    RawVertex v;
+    v.position = position;
+    v.color0 = color;
+    v.color1 = {color.b, color.r, color.g, 1.0F};
+    v.uv[0] = {uv.x, uv.y, 0.0F, 1.0F};
+    return v;
+}
+
+/// Raw vertices in all three spaces, every primitive, several depth tests.
+inline Scene machine() {
+    Scene scene = lit_scene(machine_profile("nv2a"), 200, 150);
+    scene.lights.clear();
+    auto material = std::make_shared<Material>();
+    material->program.emplace();
+    material->program->combiners = busy_program();
+    material->program->units = {streaks(16, 12, {128, 128, 128, 128}, 250,
+                                        {Filter::linear, Wrap::clamp_to_edge, Wrap::repeat})};
+    const auto add = [&](Space space, Topology topology, std::vector<RawVertex> vertices,
+                         RasterState raster) {
+        scene.objects.push_back(
+            {RawVertices{space, topology, std::move(vertices)}, material, glm::mat4(1.0F), raster});
+    };
+    const glm::vec4 red(1.0F, 0.2F, 0.1F, 0.2F), green(0.1F, 0.9F, 0.2F, 0.9F),
+        blue(0.2F, 0.1F, 1.0F, 0.7F), white(1.0F);
+    add(Space::window, Topology::quads,
+        {corner({10.0F, 10.0F, 0.5F, 1.0F}, red, {0.0F, 0.0F}),
+         corner({110.0F, 12.0F, 0.5F, 2.0F}, green, {1.5F, 0.0F}),
+         corner({100.0F, 90.0F, 0.5F, 4.0F}, blue, {1.5F, 2.0F}),
+         corner({16.25F, 80.0F, 0.5F, 1.0F}, white, {0.0F, 2.0F})},
+        {.depth_test = DepthTest::always});
+    add(Space::clip, Topology::triangle_strip,
+        {corner({-0.4F, -0.9F, 0.1F, 1.0F}, blue, {0.0F, 0.0F}),
+         corner({0.9F, -0.8F, -0.3F, 1.0F}, red, {1.0F, 0.0F}),
+         corner({-0.2F, 0.7F, 0.2F, 1.5F}, green, {0.0F, 1.0F}),
+         corner({1.2F, 0.9F, 0.4F, 1.2F}, white, {1.0F, 1.0F})},
+        {.depth_test = DepthTest::lequal});
+    add(Space::object, Topology::triangle_fan,
+        {corner({0.0F, 0.0F, 0.2F, 1.0F}, white, {0.5F, 0.5F}),
+         corner({1.0F, 0.1F, 0.0F, 1.0F}, red, {1.0F, 0.5F}),
+         corner({0.2F, 0.9F, 0.4F, 1.0F}, green, {0.5F, 1.0F}),
+         corner({-0.8F, 0.2F, 0.1F, 1.0F}, blue, {0.0F, 0.5F}),
+         corner({-0.1F, -0.7F, 0.0F, 1.0F}, red, {0.5F, 0.0F})},
+        {.depth_test = DepthTest::gequal, .depth_write = false});
+    add(Space::window, Topology::quad_strip,
+        {corner({120.0F, 20.0F, 0.2F, 1.0F}, red, {0.0F, 0.0F}),
+         corner({190.0F, 20.0F, 0.2F, 1.0F}, green, {1.0F, 0.0F}),
+         corner({125.0F, 60.0F, 0.7F, 1.0F}, blue, {0.0F, 0.5F}),
+         corner({180.0F, 70.0F, 0.7F, 1.0F}, white, {1.0F, 0.5F}),
+         corner({120.0F, 140.0F, 0.3F, 1.0F}, green, {0.0F, 1.0F}),
+         corner({195.0F, 130.0F, 0.3F, 1.0F}, red, {1.0F, 1.0F})},
+        {.depth_test = DepthTest::notequal, .cull = Cull::none});
+    return scene;
+}
+
+struct NamedScene {
+    std::string name;
+    Scene (*make)();
+};
+inline const std::vector<NamedScene>& all() {
+    static const std::vector<NamedScene> list{{"knot", knot},
+                                              {"ellipsoid", ellipsoid},
+                                              {"million", million},
+                                              {"near_plane", near_plane},
+                                              {"machine", machine}};
+    return list;
+}
+
+}  // namespace burnish::scenes
