@@ -22,7 +22,7 @@ std::vector<IsaInfo> instruction_sets();
 
 struct RendererOptions {
     int threads = 0;       ///< workers, exactly that many; 0 = one per core; at most 1024
-    std::string isa;       ///< empty: the environment variable BURNISH_ISA, else the best available
+    std::string isa = {};  ///< empty: the environment variable BURNISH_ISA, else the best available
     std::size_t memory_cap = std::size_t{256} << 20;  ///< bytes for binned triangles, then a flush
 };
 
