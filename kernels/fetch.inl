@@ -146,17 +146,18 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
             up[k] = I16(256) - down[k];
         }
         for (int t = 0; t < textures; ++t) {
-            I16 v[4];
-            for (int k = 0; k < 4; ++k) {
+            const std::int8_t *const upper = texels[t], *const lower = texels[t] + pitch;
+            const auto filtered = [&](int k) __attribute__((always_inline)) {
                 const std::int32_t* at = texel + i + 2 * k;
-                const I16 top = shuffle_bytes(load_pairs(texels[t], at), patterns.interleave);
-                const I16 bottom =
-                    shuffle_bytes(load_pairs(texels[t] + pitch, at), patterns.interleave);
-                v[k] = Model::combine(lerp_row(top, bytes[k]), lerp_row(bottom, bytes[k]), up[k],
+                const I16 top = shuffle_bytes(load_pairs(upper, at), patterns.interleave);
+                const I16 bottom = shuffle_bytes(load_pairs(lower, at), patterns.interleave);
+                return Model::combine(lerp_row(top, bytes[k]), lerp_row(bottom, bytes[k]), up[k],
                                       down[k]);
-            }
-            const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);
-            const I16 ba01 = zip_hi32(v[0], v[1]), ba23 = zip_hi32(v[2], v[3]);
+            };
+            // Four by name: as a loop they are left rolled up, and pass through memory.
+            const I16 v0 = filtered(0), v1 = filtered(1), v2 = filtered(2), v3 = filtered(3);
+            const I16 rg01 = zip_lo32(v0, v1), rg23 = zip_lo32(v2, v3);
+            const I16 ba01 = zip_hi32(v0, v1), ba23 = zip_hi32(v2, v3);
             std::int16_t* const out = planes[t] + i;
             store(out, zip_lo64(rg01, rg23));
             store(out + kPacketSize, zip_hi64(rg01, rg23));
