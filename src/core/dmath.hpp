@@ -6,9 +6,9 @@
 
 /// Elementary functions in double made of + - * / and sqrt only, so that their bits are the same on
 /// every CPU and C library. Whatever reaches a machine image goes through here; std:: is for the
-/// double-precision renderer. Absolute error below 4e-16 for sin and cos, below 2e-15 for atan, atan2
-/// and acos; relative error below 1e-14 for exp2 and log2 (away from 1), times the larger of 1 and y
-/// for pow. tests/dmath.cpp measures it.
+/// double-precision renderer. Absolute error below 4e-16 for sin and cos, below 2e-15 for atan,
+/// atan2 and acos; relative error below 1e-14 for exp2 and log2 (away from 1), times the larger of
+/// 1 and y for pow. tests/dmath.cpp measures it.
 namespace burnish::dmath {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -82,14 +82,17 @@ inline double cos(double x) {
     return q.index == 1 || q.index == 2 ? -c : c;
 }
 
-inline double tan(double x) { return sin(x) / cos(x); }
+inline double tan(double x) {
+    return sin(x) / cos(x);
+}
 
 /// Any finite x. Three half-angle steps bring |x| <= 1 below 0.1, then the power series.
 inline double atan(double x) {
     if (x > 1.0) return 0.5 * kPi - atan(1.0 / x);
     if (x < -1.0) return -0.5 * kPi - atan(1.0 / x);
     for (int i = 0; i < 3; ++i) x = x / (1.0 + std::sqrt(1.0 + x * x));
-    constexpr double c[] = {1.0, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
+    constexpr double c[] = {1.0,     -1.0 / 3,  1.0 / 5,  -1.0 / 7,
+                            1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
     return 8.0 * x * detail::horner(c, x * x);
 }
 
@@ -122,8 +125,8 @@ inline double exp2(double x) {
         term *= f / i;
         sum += term;
     }
-    return sum * std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023)
-                                       << 52);
+    return sum * std::bit_cast<double>(
+                     static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023) << 52);
 }
 
 /// Base-2 logarithm of a positive normal number.

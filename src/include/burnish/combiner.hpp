@@ -10,8 +10,8 @@
 #include <burnish/machine.hpp>
 
 /// Programs for the register-combiner machine, as data and through a small typed builder.
-/// Semantics: NV_register_combiners 1.7 and the measured behaviour of the NV2A; docs/numbers.md says
-/// what each number format does.
+/// Semantics: NV_register_combiners 1.7 and the measured behaviour of the NV2A; docs/numbers.md
+/// says what each number format does.
 namespace burnish {
 
 /// Registers by their names in the text syntax. `tex0` + i is texture unit i.
@@ -22,8 +22,22 @@ enum class Register : std::uint8_t {
     fog,  ///< alpha only in the final combiner
     col0,
     col1,
-    tex0, tex1, tex2, tex3, tex4, tex5, tex6, tex7,
-    tex8, tex9, tex10, tex11, tex12, tex13, tex14, tex15,
+    tex0,
+    tex1,
+    tex2,
+    tex3,
+    tex4,
+    tex5,
+    tex6,
+    tex7,
+    tex8,
+    tex9,
+    tex10,
+    tex11,
+    tex12,
+    tex13,
+    tex14,
+    tex15,
     spare0,
     spare1,
     color_sum,      ///< spare0 + col1; inputs B, C, D of the final combiner
@@ -134,16 +148,36 @@ struct ProductExpr {
     Product kind;
 };
 
-constexpr Input in(Register r) { return {r, Mapping::signed_identity, Component::rgb}; }
-constexpr Input raw(Register r) { return {r, Mapping::unsigned_identity, Component::rgb}; }
-constexpr Input expand(Register r) { return {r, Mapping::expand, Component::rgb}; }
-constexpr Input half_bias(Register r) { return {r, Mapping::half_bias, Component::rgb}; }
-constexpr Input invert(Register r) { return {r, Mapping::unsigned_invert, Component::rgb}; }
-constexpr Input one() { return invert(Register::zero); }
-constexpr Input alpha(Input i) { return {i.reg, i.mapping, Component::alpha}; }
-constexpr Input blue(Input i) { return {i.reg, i.mapping, Component::blue}; }
-constexpr ProductExpr mul(Input x, Input y) { return {x, y, Product::multiply}; }
-constexpr ProductExpr dot(Input x, Input y) { return {x, y, Product::dot}; }
+constexpr Input in(Register r) {
+    return {r, Mapping::signed_identity, Component::rgb};
+}
+constexpr Input raw(Register r) {
+    return {r, Mapping::unsigned_identity, Component::rgb};
+}
+constexpr Input expand(Register r) {
+    return {r, Mapping::expand, Component::rgb};
+}
+constexpr Input half_bias(Register r) {
+    return {r, Mapping::half_bias, Component::rgb};
+}
+constexpr Input invert(Register r) {
+    return {r, Mapping::unsigned_invert, Component::rgb};
+}
+constexpr Input one() {
+    return invert(Register::zero);
+}
+constexpr Input alpha(Input i) {
+    return {i.reg, i.mapping, Component::alpha};
+}
+constexpr Input blue(Input i) {
+    return {i.reg, i.mapping, Component::blue};
+}
+constexpr ProductExpr mul(Input x, Input y) {
+    return {x, y, Product::multiply};
+}
+constexpr ProductExpr dot(Input x, Input y) {
+    return {x, y, Product::dot};
+}
 
 }  // namespace combine
 

@@ -7,8 +7,8 @@ namespace burnish {
 
 /// What went wrong, for callers that act on it. The message says the rest.
 enum class ErrorCode {
-    bad_option,   ///< an argument of a call or of the command line: unknown name, value out of range
-    bad_input,    ///< the bytes of a file: truncated, malformed, inconsistent
+    bad_option,  ///< an argument of a call or of the command line: unknown name, value out of range
+    bad_input,   ///< the bytes of a file: truncated, malformed, inconsistent
     bad_program,  ///< a combiner program that the machine cannot run
     io,           ///< a file that cannot be opened, read, written or renamed
     limit,        ///< a size beyond what burnish handles, or memory that is not there

@@ -9,7 +9,8 @@
 #include <vector>
 
 /// Files in and out. The code behind these calls (OpenImageIO, OpenMesh, TOML) lives in the library
-/// burnish_io, which is loaded at the first call: programs that touch no file start in milliseconds.
+/// burnish_io, which is loaded at the first call: programs that touch no file start in
+/// milliseconds.
 ///
 /// Common to all: Error{io} if a file cannot be opened, read or written, Error{bad_input} if its
 /// bytes make no sense (the message begins with FILE:LINE where lines exist), Error{limit} if it is
@@ -18,13 +19,13 @@ namespace burnish {
 
 /// What reading a mesh had to decide or leave out.
 struct MeshReport {
-    std::size_t polygons = 0;             ///< in the file
-    std::size_t triangles = 0;            ///< drawn
-    std::size_t boundary_edges = 0;       ///< edges with a face on one side only
-    std::size_t nonmanifold_faces = 0;    ///< refused by the half-edge structure, drawn all the same
-    std::size_t degenerate_faces = 0;     ///< zero area or fewer than 3 distinct corners: skipped
-    std::size_t nonfinite_vertices = 0;   ///< faces that use them are skipped
-    std::size_t nonfinite_faces = 0;      ///< skipped for that reason
+    std::size_t polygons = 0;            ///< in the file
+    std::size_t triangles = 0;           ///< drawn
+    std::size_t boundary_edges = 0;      ///< edges with a face on one side only
+    std::size_t nonmanifold_faces = 0;   ///< refused by the half-edge structure, drawn all the same
+    std::size_t degenerate_faces = 0;    ///< zero area or fewer than 3 distinct corners: skipped
+    std::size_t nonfinite_vertices = 0;  ///< faces that use them are skipped
+    std::size_t nonfinite_faces = 0;     ///< skipped for that reason
     bool generated_normals = false;
     bool generated_uvs = false;
 

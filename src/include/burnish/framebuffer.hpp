@@ -16,7 +16,8 @@ enum class PixelFormat {
 /// Bytes per pixel: 4, 8 or 16.
 [[nodiscard]] std::size_t pixel_size(PixelFormat format) noexcept;
 
-/// Where a picture goes: row 0 on top, no transfer function. Owns its memory or borrows the caller's.
+/// Where a picture goes: row 0 on top, no transfer function. Owns its memory or borrows the
+/// caller's.
 class Framebuffer {
   public:
     /// Largest width and height.

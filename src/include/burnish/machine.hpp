@@ -27,8 +27,8 @@ struct Machine {
     bool stage_constants = true;  ///< const0 and const1 may differ from stage to stage
     NumberModel numbers = NumberModel::wide;
     HalfVector half_vector = HalfVector::pixel;
-    int subpixel_bits = 8;        ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
-    bool snap_floor = false;      ///< snap by floor, as the NV2A does, instead of to nearest
+    int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
+    bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
 
     /// Throws Error{bad_option} for a field outside its range.
     void validate() const;

@@ -15,11 +15,13 @@ namespace burnish {
 /// A vertex is one distinct combination of position, normal, uv and tangent, so seams are simply
 /// vertices that share a position. The four attribute arrays have the same length.
 struct MeshData {
-    std::vector<glm::vec3> positions;    ///< object space
-    std::vector<glm::vec3> normals;      ///< unit length, object space
-    std::vector<glm::vec2> uvs;          ///< v grows upward, as in OBJ, PLY and OFF files
-    std::vector<glm::vec4> tangents;     ///< xyz unit tangent, w = +1 or -1: bitangent = w * cross(n, t)
-    std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from outside
+    std::vector<glm::vec3> positions;  ///< object space
+    std::vector<glm::vec3> normals;    ///< unit length, object space
+    std::vector<glm::vec2> uvs;        ///< v grows upward, as in OBJ, PLY and OFF files
+    std::vector<glm::vec4>
+        tangents;  ///< xyz unit tangent, w = +1 or -1: bitangent = w * cross(n, t)
+    std::vector<std::uint32_t>
+        indices;  ///< three per triangle, counter-clockwise seen from outside
 };
 
 /// Axis-aligned box in object space; `low` > `high` when it is empty.

@@ -20,9 +20,9 @@ struct Camera {
     glm::vec3 position{0.0F, 0.0F, 3.0F};
     glm::vec3 focal_point{0.0F, 0.0F, 0.0F};
     glm::vec3 view_up{0.0F, 1.0F, 0.0F};
-    float view_angle = 45.0F;  ///< vertical, degrees, in (0, 180)
-    float near = 0.1F;         ///< > 0
-    float far = 100.0F;        ///< > near
+    float view_angle = 45.0F;             ///< vertical, degrees, in (0, 180)
+    float near = 0.1F;                    ///< > 0
+    float far = 100.0F;                   ///< > near
     std::optional<glm::mat4> view;        ///< world -> eye, instead of the vectors above
     std::optional<glm::mat4> projection;  ///< eye -> clip, instead of angle, near and far
 };
@@ -37,7 +37,8 @@ struct Light {
 };
 
 enum class Model {
-    abp_modified,  ///< the talk's "modified" anisotropic Blinn-Phong: ks (1 - (h.t/ax)^2 - (h.b/ay)^2)
+    abp_modified,  ///< the talk's "modified" anisotropic Blinn-Phong: ks (1 - (h.t/ax)^2 -
+                   ///< (h.b/ay)^2)
 };
 
 /// What an interpolator carries into a colour register of a hand-written program.
@@ -96,8 +97,9 @@ struct RawVertex {
     glm::vec4 position{0.0F, 0.0F, 0.0F, 1.0F};
     glm::vec4 color0{0.0F, 0.0F, 0.0F, 1.0F};  ///< clamped to [0, 1]
     glm::vec4 color1{0.0F, 0.0F, 0.0F, 1.0F};
-    std::array<glm::vec4, 4> uv{glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}, glm::vec4{0.0F, 0.0F, 0.0F, 1.0F},
-                                glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}, glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}};
+    std::array<glm::vec4, 4> uv{
+        glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}, glm::vec4{0.0F, 0.0F, 0.0F, 1.0F},
+        glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}, glm::vec4{0.0F, 0.0F, 0.0F, 1.0F}};
 };
 
 /// Vertices given one by one: what a test of the machine itself needs.
@@ -129,8 +131,8 @@ struct Scene {
     std::vector<Object> objects;
 };
 
-/// Rotation by `degrees` about `axis` after uniform `scale`, then translation. Bits do not depend on
-/// the C library. Throws Error{bad_option} for a zero axis or a scale that is not positive.
+/// Rotation by `degrees` about `axis` after uniform `scale`, then translation. Bits do not depend
+/// on the C library. Throws Error{bad_option} for a zero axis or a scale that is not positive.
 glm::mat4 placement(const glm::vec3& translate, const glm::vec3& axis, float degrees, float scale);
 
 /// A camera that sees all of `bounds` from the direction (0.5, 0.35, 1), at the given aspect ratio.

@@ -16,7 +16,9 @@ struct Image8 {
 
     Image8() = default;
     Image8(int w, int h)
-        : width(w), height(h), rgba(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+        : width(w),
+          height(h),
+          rgba(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
     [[nodiscard]] std::uint8_t* at(int x, int y) {
         return rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                   static_cast<std::size_t>(x));
