@@ -39,7 +39,10 @@ ClipPolygon cut_polygon(const ClipPolygon& polygon, int plane) {
         const ClipVertex& a = polygon.corner[static_cast<std::size_t>(i)];
         const ClipVertex& b = polygon.corner[static_cast<std::size_t>((i + 1) % polygon.count)];
         const double da = inside(a, plane), db = inside(b, plane);
+        // Where magnitudes differ by 10^15 and more, rounded corners may change sides again and
+        // again, more often than a convex polygon can; the array must hold all the same.
         const auto add = [&](const ClipVertex& v) {
+            if (result.count == ClipPolygon::kMaxCorners) return;
             result.corner[static_cast<std::size_t>(result.count++)] = v;
         };
         if (da >= 0.0) add(a);

@@ -1,0 +1,170 @@
+// Many small frames with every number of workers: what the thread sanitizer is run on, and a hunt
+// for schedules that change a picture. Build with BURNISH_THREADS=std for the sanitizer.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <burnish/error.hpp>
+#include <cstring>
+#include <numeric>
+#include <thread>
+
+#include "core/parallel.hpp"
+#include "tests/scenes.hpp"
+
+namespace burnish {
+namespace {
+
+bool same(const Framebuffer& a, const Framebuffer& b) {
+    const std::size_t row = static_cast<std::size_t>(a.width()) * pixel_size(a.format());
+    for (int y = 0; y < a.height(); ++y) {
+        if (std::memcmp(a.row(y), b.row(y), row) != 0) return false;
+    }
+    return true;
+}
+
+/// Scenes with meshes and with raw vertices, one of them with more objects than one.
+std::vector<Scene> small_scenes() {
+    std::vector<Scene> result{scenes::near_plane(), scenes::machine(), scenes::ellipsoid()};
+    Scene knot = scenes::knot();
+    knot.objects[0].geometry = Mesh(shapes::torus_knot(60, 8));
+    knot.objects.push_back({knot.objects[0].geometry,
+                            knot.objects[0].material,
+                            placement({0.2F, 0.1F, 0.5F}, {0.0F, 1.0F, 0.0F}, 50.0F, 0.4F),
+                            {}});
+    result.push_back(std::move(knot));
+    return result;
+}
+
+constexpr int kWidth = 150, kHeight = 100;  // 3 x 2 tiles
+
+TEST(Threads, EveryFrameIsTheOneThreadedFrame) {
+    const std::vector<Scene> scenes = small_scenes();
+    std::vector<Framebuffer> want;
+    std::vector<FrameStats> counts;
+    Renderer alone({.threads = 1});
+    for (const Scene& scene : scenes) {
+        want.emplace_back(kWidth, kHeight);
+        counts.push_back(alone.render(scene, want.back()));
+    }
+    for (int threads = 2; threads <= 8; ++threads) {
+        Renderer renderer({.threads = threads});
+        Framebuffer frame(kWidth, kHeight);
+        for (int round = 0; round < 5; ++round) {
+            for (std::size_t i = 0; i < scenes.size(); ++i) {
+                const FrameStats stats = renderer.render(scenes[i], frame);
+                ASSERT_TRUE(same(frame, want[i])) << "scene " << i << ", " << threads << " threads";
+                EXPECT_EQ(stats.binned_triangles, counts[i].binned_triangles);
+                EXPECT_EQ(stats.shaded_pixels, counts[i].shaded_pixels);
+                EXPECT_EQ(stats.clipped_triangles, counts[i].clipped_triangles);
+                ASSERT_EQ(stats.tiles_per_worker.size(), static_cast<std::size_t>(threads));
+                EXPECT_EQ(std::accumulate(stats.tiles_per_worker.begin(),
+                                          stats.tiles_per_worker.end(), std::uint64_t{0}),
+                          6U);
+            }
+        }
+    }
+}
+
+// Which chunks a flush finds depends on the schedule, the picture does not.
+TEST(Threads, FlushedFramesAreTheSame) {
+    const std::vector<Scene> scenes = small_scenes();
+    for (const Scene& scene : scenes) {
+        Framebuffer want(kWidth, kHeight), frame(kWidth, kHeight);
+        Renderer({.threads = 1}).render(scene, want);
+        for (int threads = 1; threads <= 8; ++threads) {
+            for (const std::size_t cap : {std::size_t{1}, std::size_t{20000}}) {
+                Renderer renderer({.threads = threads, .memory_cap = cap});
+                for (int round = 0; round < 3; ++round) {
+                    renderer.render(scene, frame);
+                    ASSERT_TRUE(same(frame, want)) << threads << " threads, cap " << cap;
+                }
+            }
+        }
+    }
+}
+
+// Renderers on several threads at once share the scene and its textures and nothing else.
+TEST(Threads, RenderersDoNotDisturbEachOther) {
+    const std::vector<Scene> scenes = small_scenes();
+    std::vector<Framebuffer> want;
+    for (const Scene& scene : scenes) {
+        want.emplace_back(kWidth, kHeight);
+        Renderer({.threads = 1}).render(scene, want.back());
+    }
+    std::atomic<int> wrong{0};
+    std::vector<std::thread> callers;
+    for (int caller = 0; caller < 3; ++caller) {
+        callers.emplace_back([&, caller] {
+            Renderer renderer({.threads = caller + 1});
+            Framebuffer frame(kWidth, kHeight);
+            for (int round = 0; round < 4; ++round) {
+                for (std::size_t i = 0; i < scenes.size(); ++i) {
+                    renderer.render(scenes[i], frame);
+                    if (!same(frame, want[i])) ++wrong;
+                }
+            }
+        });
+    }
+    for (std::thread& caller : callers) caller.join();
+    EXPECT_EQ(wrong, 0);
+}
+
+// Errors are thrown before a worker is at work, and leave a renderer that draws.
+TEST(Threads, ARefusedSceneLeavesTheRendererUsable) {
+    const std::vector<Scene> scenes = small_scenes();
+    Scene bad = scenes[0];
+    bad.lights.resize(2);
+    Renderer renderer({.threads = 4});
+    Framebuffer want(kWidth, kHeight), frame(kWidth, kHeight);
+    Renderer({.threads = 1}).render(scenes[0], want);
+    for (int round = 0; round < 3; ++round) {
+        EXPECT_THROW(renderer.render(bad, frame), Error);
+        renderer.render(scenes[0], frame);
+        EXPECT_TRUE(same(frame, want));
+    }
+}
+
+TEST(WorkerPool, CallsEveryWorkerOnce) {
+    for (int size = 1; size <= 8; ++size) {
+        WorkerPool pool(size);
+        for (int round = 0; round < 200; ++round) {
+            std::vector<int> calls(static_cast<std::size_t>(size), 0);
+            pool.run([&](int worker) { ++calls[static_cast<std::size_t>(worker)]; });
+            for (const int n : calls) ASSERT_EQ(n, 1);
+        }
+    }
+}
+
+TEST(WorkerPool, HandsOutEveryIndexOnce) {
+    for (const int size : {1, 2, 5, 8}) {
+        WorkerPool pool(size);
+        for (const std::size_t count : {0U, 1U, 7U, 1000U}) {
+            for (const std::size_t grain : {1U, 3U, 64U}) {
+                std::vector<std::atomic<int>> taken(count);
+                for_each_index(pool, count, grain, [&](std::size_t i, int worker) {
+                    ++taken[i];
+                    EXPECT_LT(worker, size);
+                });
+                for (const auto& n : taken) ASSERT_EQ(n, 1) << count << " by " << grain;
+            }
+        }
+    }
+}
+
+TEST(WorkerPool, AnErrorOfAWorkerReachesTheCaller) {
+    for (const int size : {1, 2, 6}) {
+        WorkerPool pool(size);
+        for (int thrower = 0; thrower < size; ++thrower) {
+            EXPECT_THROW(pool.run([&](int worker) {
+                if (worker == thrower) throw Error(ErrorCode::limit, "on purpose");
+            }),
+                         Error);
+            std::atomic<int> calls{0};
+            pool.run([&](int) { ++calls; });
+            EXPECT_EQ(calls, size);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burnish
