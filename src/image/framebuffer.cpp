@@ -39,8 +39,11 @@ Framebuffer::Framebuffer(int width, int height, PixelFormat format)
     : m_width(width), m_height(height), m_format(format) {
     check_size(width, height);
     m_pitch = static_cast<std::ptrdiff_t>(pixel_size(format)) * width;
-    m_owned.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(height));
-    m_pixels = m_owned.data();
+    // Whole cache lines, so that rows can be written past the caches.
+    constexpr std::uintptr_t kLine = 64;
+    m_owned.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(height) + kLine);
+    const auto address = reinterpret_cast<std::uintptr_t>(m_owned.data());
+    m_pixels = m_owned.data() + (kLine - address % kLine) % kLine;
 }
 
 Framebuffer::Framebuffer(void* pixels, std::ptrdiff_t pitch, int width, int height,

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "image/stream.hpp"
 #include "kernels/packet.hpp"
 
 namespace burnish {
@@ -101,8 +102,9 @@ void TileImage::load(const Framebuffer& frame, std::int32_t left, std::int32_t t
 void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
     for_each_row(frame, left, top,
                  [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
-                     std::memcpy(frame.row(y) + in_row, m_pixels.data() + in_tile, n);
+                     stream_copy(frame.row(y) + in_row, m_pixels.data() + in_tile, n);
                  });
+    stream_fence();
 }
 
 void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
@@ -110,9 +112,10 @@ void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_
     const std::int32_t rows = std::min(kTileSize, frame.height() - top);
     const auto columns = static_cast<std::size_t>(std::min(kTileSize, frame.width() - left));
     for (std::int32_t y = top; y < top + rows; ++y) {
-        std::memcpy(frame.row(y) + static_cast<std::size_t>(left) * m_pixel_size,
+        stream_copy(frame.row(y) + static_cast<std::size_t>(left) * m_pixel_size,
                     m_background.data(), columns * m_pixel_size);
     }
+    stream_fence();
 }
 
 }  // namespace burnish
