@@ -193,7 +193,13 @@ void Renderer::State::bin(FrameStats& stats) {
             bytes.fetch_add(chunks[i]->bytes(), std::memory_order_relaxed);
         }
     });
-    chunk_count = std::min(next.load(), left);
+    // How many were handed out depends on the schedule; how many fit does not. The rest is binned
+    // again in the next round.
+    const std::size_t filled = std::min(next.load(), left);
+    chunk_count = 0;
+    for (std::size_t used = 0; chunk_count < filled && (chunk_count == 0 || used < memory_cap);) {
+        used += chunks[chunk_count++]->bytes();
+    }
     next_range = first + chunk_count;
     for (std::size_t i = 0; i < chunk_count; ++i) {
         const BinCounts& counts = chunks[i]->counts();

@@ -65,18 +65,22 @@ TEST(Threads, EveryFrameIsTheOneThreadedFrame) {
     }
 }
 
-// Which chunks a flush finds depends on the schedule, the picture does not.
+// Neither the picture nor the number of flushes depends on which chunks were ready first.
 TEST(Threads, FlushedFramesAreTheSame) {
     const std::vector<Scene> scenes = small_scenes();
     for (const Scene& scene : scenes) {
         Framebuffer want(kWidth, kHeight), frame(kWidth, kHeight);
         Renderer({.threads = 1}).render(scene, want);
-        for (int threads = 1; threads <= 8; ++threads) {
-            for (const std::size_t cap : {std::size_t{1}, std::size_t{20000}}) {
+        for (const std::size_t cap : {std::size_t{0}, std::size_t{1}, std::size_t{20000}}) {
+            const std::uint64_t flushes =
+                Renderer({.threads = 1, .memory_cap = cap}).render(scene, frame).flushes;
+            EXPECT_GE(flushes, cap <= 1 ? 1U : 0U);
+            for (int threads = 1; threads <= 8; ++threads) {
                 Renderer renderer({.threads = threads, .memory_cap = cap});
                 for (int round = 0; round < 3; ++round) {
-                    renderer.render(scene, frame);
+                    const FrameStats stats = renderer.render(scene, frame);
                     ASSERT_TRUE(same(frame, want)) << threads << " threads, cap " << cap;
+                    ASSERT_EQ(stats.flushes, flushes) << threads << " threads, cap " << cap;
                 }
             }
         }

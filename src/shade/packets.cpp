@@ -33,6 +33,8 @@ void PacketShader::begin(const KernelTable& kernels, std::int32_t left, std::int
     m_format = format;
     m_tile = tile;
     m_current = m_loaded = nullptr;
+    m_packet.count = 0;  // an exception may have left fragments of an earlier tile
+    m_runs.clear();
     m_planes_by_id.assign(triangle_count, nullptr);
     m_plane_block = m_plane_used = 0;
 }
