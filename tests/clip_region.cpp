@@ -180,6 +180,40 @@ TEST(ClipRegion, SingleVerticesGoTheWayOfTheTransformStage) {
     }
 }
 
+// A triangle that is cut and its neighbour that is not share corners: those keep the place that the
+// transform stage gave them, rounding included.
+TEST(ClipRegion, VisibleCornersKeepTheirPlaces) {
+    constexpr FrameSize kWide{16384, 16384};
+    const Viewport viewport = make_viewport(machine_profile("ideal"), kWide.width, kWide.height);
+    int kept = 0;
+    for (unsigned seed = 0; seed < 20000; ++seed) {
+        Random random(seed);
+        std::array<ScreenVertex, 3> screen{};
+        std::array<HomogeneousVertex, 3> homogeneous{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const bool behind = i == 2;
+            const float w = behind ? random.real(-2.0F, -0.1F) : random.real(0.2F, 5.0F);
+            place_clip_vertex({random.real(-1, 1) * w, random.real(-1, 1) * w,
+                               behind ? w - 1.0F : random.real(-1, 1) * w, w},
+                              viewport, screen[i], homogeneous[i]);
+        }
+        const std::array<std::uint32_t, 3> indices{0, 1, 2};
+        Chunk chunk;
+        chunk.fill({{screen, homogeneous, indices}, 0, Facing::any, viewport, kWide}, 0, 1);
+        ASSERT_EQ(chunk.counts().clipped, 1U) << "seed " << seed;
+        for (std::size_t i = 0; i < 2; ++i) {
+            bool found = false;
+            for (const SetupTriangle& t : chunk.triangles()) {
+                for (std::size_t k = 0; k < 3; ++k)
+                    found |= t.x[k] == screen[i].x && t.y[k] == screen[i].y;
+            }
+            ASSERT_TRUE(found) << "seed " << seed << ", corner " << i;
+            ++kept;
+        }
+    }
+    EXPECT_EQ(kept, 40000);
+}
+
 constexpr FrameSize kFrame{171, 117};
 
 /// How often each pixel is covered by the triangles of a mesh, tile by tile as they are binned.

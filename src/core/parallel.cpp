@@ -56,12 +56,12 @@ int checked_size(int workers) {
 #ifdef BURNISH_THREADS_TBB
 
 struct WorkerPool::Backend {
-    explicit Backend(int workers)
-        : limit(tbb::global_control::max_allowed_parallelism,
-                std::max<std::size_t>(static_cast<std::size_t>(workers),
-                                      tbb::global_control::active_value(
-                                          tbb::global_control::max_allowed_parallelism))),
-          arena(workers) {}
+    explicit Backend(int workers) : arena(workers) {
+        // TBB otherwise never runs more threads than there are cores. Of several controls the
+        // smallest counts, so there is one for the whole process.
+        static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                               kMaxWorkers);
+    }
 
     /// The caller is worker 0; the others are tasks of an arena with exactly `workers` slots.
     void run(int workers, const std::function<void(int)>& body) {
@@ -85,7 +85,6 @@ struct WorkerPool::Backend {
         });
     }
 
-    tbb::global_control limit;  // TBB otherwise never runs more threads than there are cores
     tbb::task_arena arena;
 };
 
