@@ -161,14 +161,23 @@ void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
         alignas(64) std::int16_t half[2][kLanes];
         store(half[0], zip_lo16(rg, ba));
         store(half[1], zip_hi16(rg, ba));
+        const auto put = [&](const std::int16_t* from, int k) {
+            __builtin_memcpy(tile + pixels[i + k], from, 4);
+        };
         const int used = count - i < kLanes ? count - i : kLanes;
-        for (int part = 0; part < used; part += 4) {
-            const std::int16_t* from = half[part / 4 & 1] + part / 8 * 8;
-            const int last = used - part < 4 ? used - part : 4;
-            for (int k = 0; k < last; ++k) {
-                __builtin_memcpy(tile + pixels[i + part + k], from + 2 * k, 4);
-            }
+        int part = 0;
+        for (; part + 8 <= used; part += 8) {
+            const std::int16_t *low = half[0] + part, *high = half[1] + part;
+            put(low, part);
+            put(low + 2, part + 1);
+            put(low + 4, part + 2);
+            put(low + 6, part + 3);
+            put(high, part + 4);
+            put(high + 2, part + 5);
+            put(high + 4, part + 6);
+            put(high + 6, part + 7);
         }
+        for (int k = part; k < used; ++k) put(half[(k - part) / 4] + part + (k - part) % 4 * 2, k);
     }
 }
 
