@@ -1,202 +1,278 @@
 // Which 16-bit format should the wide registers have? Runs the same pipelines in both candidates
-// and in double and prints the errors as a table, which stands in docs/numbers.md with what
-// follows.
-//   Q14: 1 = 2^14, registers in [-2, 2), product (a b + 2^13) >> 14
-//   Q15: 1 = 32767 by decree, registers in [-1, 1], product (a b + 2^14) >> 15, additions saturate
+// and in double and prints the errors as tables; docs/numbers.md has them with what follows.
+//   2^14: 1 = 16384, registers in [-2, 2), product (a b + 2^13) >> 14
+//   2^15: 1 = 32767 by decree, registers in [-1, 1], product (a b + 2^14) >> 15, which is the
+//         vector units' own, additions saturate
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <string>
 
 namespace {
 
 struct Q14 {
     static constexpr const char* kName = "2^14";
-    static constexpr int kOne = 16384, kLow = -32768, kHigh = 32767;
-    static constexpr double kUnit = 16384.0;
+    static constexpr int kOne = 16384, kHalf = 8192;
     static int product(int a, int b) { return (a * b + 8192) >> 14; }
-    /// Ward's u reaches 2.5: kept as u / 2, and q / 8 of the squares of that.
-    static constexpr int kWardShift = 1;
+    /// Sums are kept in 32 bits until the stage's result is clamped.
+    static int add(int a, int b) { return a + b; }
 };
 
 struct Q15 {
     static constexpr const char* kName = "2^15";
-    static constexpr int kOne = 32767, kLow = -32767, kHigh = 32767;
-    static constexpr double kUnit = 32767.0;
+    static constexpr int kOne = 32767, kHalf = 16384;
     static int product(int a, int b) { return (a * b + 16384) >> 15; }
-    /// Nothing above 1 exists: u / 4, and q / 16.
-    static constexpr int kWardShift = 2;
+    static int add(int a, int b) { return std::clamp(a + b, -32768, 32767); }
 };
 
 template <class F>
 int code(double x) {
-    const double c = std::floor(x * F::kUnit + 0.5);
-    return static_cast<int>(
-        std::clamp(c, static_cast<double>(F::kLow), static_cast<double>(F::kHigh)));
+    const double c = std::floor(x * F::kOne + 0.5);
+    return static_cast<int>(std::clamp(c, -32768.0, 32767.0));
 }
 template <class F>
 double value(int code) {
-    return code / F::kUnit;
+    return static_cast<double>(code) / F::kOne;
 }
-/// What a general stage leaves: [-1, 1].
+int saturate(int x) {
+    return std::clamp(x, -32768, 32767);
+}
+/// What a general stage leaves unless its portion is wide: [-1, 1].
 template <class F>
 int stage(int x) {
     return std::clamp(x, -F::kOne, F::kOne);
 }
+/// 2 x - 1 as x + (x - 1), which no 16-bit step overflows and which maps 1 to 1 in both formats.
 template <class F>
-int dot(const int (&a)[3], const int (&b)[3]) {
-    return F::product(a[0], b[0]) + F::product(a[1], b[1]) + F::product(a[2], b[2]);
+int expand(int x) {
+    return x + (x - F::kOne);
 }
 
-/// Half vector in the frame of t, b, n, the widths of the lobe and ks.
+using Vector = std::array<double, 3>;
+using Codes = std::array<int, 3>;
+
+/// How a vector in [-1, 1]^3 comes into a register.
+enum class Encoding { signed_map, colour };
+
+template <class F>
+Codes load(const Vector& v, double scale, Encoding encoding) {
+    Codes out{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double x = v[c] * scale;
+        out[c] = encoding == Encoding::colour ? expand<F>(code<F>(0.5 * x + 0.5)) : code<F>(x);
+    }
+    return out;
+}
+template <class F>
+int dot(const Codes& a, const Codes& b) {
+    return F::add(F::add(F::product(a[0], b[0]), F::product(a[1], b[1])), F::product(a[2], b[2]));
+}
+
+/// A tangent frame and a half vector in one space, the widths of the lobe and ks.
+/// u = h.t / alpha_x and v = h.b / alpha_y lie in the disc of radius 2.5.
 struct Sample {
-    double h[3], alpha_x, alpha_y, ks;
+    Vector t, b, n, h;
+    double u, v, h_n, alpha_x, alpha_y, ks;
 };
 
+/// h.axis / (alpha unit), from a map of axis m / (alpha unit), m a power of two that keeps the map
+/// within [-1, 1] and that the stage's scale takes back.
+template <class F>
+int scaled_dot(const Vector& axis, double alpha, const Vector& h, double unit, Encoding encoding) {
+    int shift = 0;
+    while (alpha * unit * (1 << shift) < 1.0) ++shift;
+    const Codes map = load<F>(axis, 1.0 / (alpha * unit * (1 << shift)), encoding);
+    return dot<F>(map, load<F>(h, 1.0, encoding)) * (1 << shift);
+}
+
 struct Lobe {
-    double s;      ///< 1 - q, clamped at 0
-    double color;  ///< ks s
+    double s;       ///< 1 - q, clamped at 0
+    double colour;  ///< ks s
 };
 
 Lobe exact_lobe(const Sample& x) {
-    const double u = x.h[0] / x.alpha_x, v = x.h[1] / x.alpha_y;
-    const double s = std::max(0.0, 1.0 - u * u - v * v);
+    const double s = std::max(0.0, 1.0 - x.u * x.u - x.v * x.v);
     return {s, x.ks * s};
 }
-
-/// The modified model: maps of t m / alpha_x and b m / alpha_y, dots times 1/m, squares, 1 - q, ks.
 template <class F>
-Lobe machine_lobe(const Sample& x) {
-    int shift = 0;
-    while (std::min(x.alpha_x, x.alpha_y) * (1 << shift) < 1.0) ++shift;
-    const double m = 1.0 / (1 << shift);
-    const int t[3] = {code<F>(m / x.alpha_x), 0, 0}, b[3] = {0, code<F>(m / x.alpha_y), 0};
-    const int h[3] = {code<F>(x.h[0]), code<F>(x.h[1]), code<F>(x.h[2])};
-    const int u = stage<F>(dot<F>(t, h) * (1 << shift)), v = stage<F>(dot<F>(b, h) * (1 << shift));
-    const int q = stage<F>(F::product(u, u) + F::product(v, v));
-    const int s = F::kOne - q;
+Lobe machine_lobe(const Sample& x, Encoding encoding) {
+    const int u = stage<F>(scaled_dot<F>(x.t, x.alpha_x, x.h, 1.0, encoding));
+    const int v = stage<F>(scaled_dot<F>(x.b, x.alpha_y, x.h, 1.0, encoding));
+    const int s = F::kOne - stage<F>(F::add(F::product(u, u), F::product(v, v)));
     return {value<F>(s), value<F>(F::product(s, code<F>(x.ks)))};
 }
 
 /// exp(-2 q / (1 + h.n)) by a table without error of its own, so that only its arguments' counts.
 double exact_ward(const Sample& x) {
-    const double u = x.h[0] / x.alpha_x, v = x.h[1] / x.alpha_y;
-    return std::exp(-2.0 * (u * u + v * v) / (1.0 + x.h[2]));
+    return std::exp(-2.0 * (x.u * x.u + x.v * x.v) / (1.0 + x.h_n));
 }
+/// The registers hold u / unit, v / unit and q / unit^2; the table's axis knows the unit.
 template <class F>
-double machine_ward(const Sample& x) {
-    const double unit = 1 << F::kWardShift;
-    const auto axis = [&](double h, double alpha) {
-        // The dot is of a map in [-1, 1] with h; its scale back to u / unit is a power of two.
-        int shift = 0;
-        while (alpha * unit * (1 << shift) < 1.0) ++shift;
-        const int dot = F::product(code<F>(1.0 / (alpha * unit * (1 << shift))), code<F>(h));
-        return std::clamp(dot * (1 << shift), F::kLow, F::kHigh);
-    };
-    const int u = axis(x.h[0], x.alpha_x), v = axis(x.h[1], x.alpha_y);
-    const int half_sum = (F::product(u, u) + F::product(v, v) + 1) >> 1;
-    const int q = std::clamp(half_sum, F::kLow, F::kHigh);
-    return std::exp(-2.0 * value<F>(q) * 2.0 * unit * unit / (1.0 + value<F>(code<F>(x.h[2]))));
+double machine_ward(const Sample& x, double unit) {
+    const auto encoding = Encoding::signed_map;
+    const int u = saturate(scaled_dot<F>(x.t, x.alpha_x, x.h, unit, encoding));
+    const int v = saturate(scaled_dot<F>(x.b, x.alpha_y, x.h, unit, encoding));
+    const int q = saturate(F::add(F::product(u, u), F::product(v, v)));
+    const int h_n = stage<F>(dot<F>(load<F>(x.n, 1.0, encoding), load<F>(x.h, 1.0, encoding)));
+    return std::exp(-2.0 * value<F>(q) * unit * unit / (1.0 + value<F>(h_n)));
 }
 
-/// Errors in units of 1/255, and how many 8-bit results differ.
-struct Errors {
-    double worst = 0.0, squares = 0.0, sum = 0.0;
-    std::uint64_t different = 0, count = 0;
-
+class Errors {
+  public:
     void add(double got, double want) {
-        const double error = (got - want) * 255.0;
-        worst = std::max(worst, std::abs(error));
-        squares += error * error;
-        sum += error;
+        const double error = got - want;
+        m_worst = std::max(m_worst, std::abs(error));
+        m_squares += error * error;
+        m_sum += error;
         const auto byte = [](double x) {
             return std::floor(std::clamp(x, 0.0, 1.0) * 255.0 + 0.5);
         };
-        different += byte(got) != byte(want) ? 1 : 0;
-        ++count;
+        m_different += byte(got) != byte(want) ? 1 : 0;
+        m_count += 1;
     }
-    void print(const char* what, const char* format) const {
-        const auto n = static_cast<double>(count);
-        fmt::print("| {} | {} | {:.4f} | {:.4f} | {:+.4f} | {:.2f} % |\n", what, format, worst,
-                   std::sqrt(squares / n), sum / n, 100.0 * static_cast<double>(different) / n);
+    void print(const std::string& what, const char* format) const {
+        const double rms = std::sqrt(m_squares / m_count);
+        fmt::print("| {} | {} | {:.3f} | {:.4f} | {:+.4f} | {:.1f} | {:.2f} | {:.2f} % |\n", what,
+                   format, m_worst * 255.0, rms * 255.0, m_sum / m_count * 255.0, m_worst * 65535.0,
+                   rms * 65535.0, 100.0 * m_different / m_count);
     }
+
+  private:
+    double m_worst = 0.0, m_squares = 0.0, m_sum = 0.0, m_different = 0.0, m_count = 0.0;
 };
 
-Sample random_sample(std::mt19937_64& engine) {
-    const auto number = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
-    Sample x{};
-    x.alpha_x = 0.05 + 0.45 * number();
-    x.alpha_y = 0.05 + 0.45 * number();
-    x.ks = number();
-    // Where the lobes are: u and v up to 1.25 (2.5 for Ward) widths from the middle.
-    const double u = (2.0 * number() - 1.0) * 2.5, v = (2.0 * number() - 1.0) * 2.5;
-    x.h[0] = std::clamp(u * x.alpha_x, -0.7, 0.7);
-    x.h[1] = std::clamp(v * x.alpha_y, -0.7, 0.7);
-    x.h[2] = std::sqrt(1.0 - x.h[0] * x.h[0] - x.h[1] * x.h[1]);
-    return x;
-}
+class Sampler {
+  public:
+    Sample operator()() {
+        Sample x{};
+        x.t = direction();
+        const Vector other = direction();
+        x.n = normalized(cross(x.t, other));
+        x.b = cross(x.n, x.t);
+        x.ks = number();
+        double h_t = 0.0, h_b = 0.0;
+        do {  // The widest lobes reach beyond the hemisphere.
+            x.alpha_x = 0.05 + 0.45 * number();
+            x.alpha_y = 0.05 + 0.45 * number();
+            x.u = 2.5 * (2.0 * number() - 1.0);
+            x.v = 2.5 * (2.0 * number() - 1.0);
+            h_t = x.u * x.alpha_x;
+            h_b = x.v * x.alpha_y;
+        } while (x.u * x.u + x.v * x.v > 6.25 || h_t * h_t + h_b * h_b > 1.0);
+        x.h_n = std::sqrt(1.0 - h_t * h_t - h_b * h_b);
+        for (std::size_t c = 0; c < 3; ++c) x.h[c] = h_t * x.t[c] + h_b * x.b[c] + x.h_n * x.n[c];
+        return x;
+    }
 
+  private:
+    double number() { return static_cast<double>(m_engine() >> 11) / 9007199254740992.0; }
+    Vector direction() {
+        Vector v{};
+        double squares = 0.0;
+        do {
+            for (double& c : v) c = 2.0 * number() - 1.0;
+            squares = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        } while (squares > 1.0 || squares < 0.01);
+        return normalized(v);
+    }
+    static Vector cross(const Vector& a, const Vector& b) {
+        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    }
+    static Vector normalized(const Vector& v) {
+        const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        return {v[0] / length, v[1] / length, v[2] / length};
+    }
+    std::mt19937_64 m_engine{1};
+};
+
+/// wards: the unit of u, a power of two, and the smallest that reaches q = 6.25.
 template <class F>
-void pipelines() {
+void pipelines(const std::array<double, 2>& wards) {
     constexpr int kSamples = 2000000;
-    std::mt19937_64 engine(1);
-    Errors lobe, narrow[3], ward;
-    constexpr int kExponents[3] = {4, 16, 64};
+    constexpr std::array<int, 3> kExponents{4, 16, 64};
+    Sampler next;
+    Errors signed_maps, colours;
+    std::array<Errors, 3> powers;
+    std::array<Errors, 2> ward;
     for (int i = 0; i < kSamples; ++i) {
-        const Sample x = random_sample(engine);
-        const Lobe got = machine_lobe<F>(x), want = exact_lobe(x);
+        const Sample x = next();
+        const Lobe want = exact_lobe(x), got = machine_lobe<F>(x, Encoding::signed_map);
         if (want.s > 0.0 || got.s > 0.0) {
-            lobe.add(got.color, want.color);
-            for (int k = 0; k < 3; ++k) {
-                narrow[k].add(std::pow(got.s, kExponents[k] / 2),
+            signed_maps.add(got.colour, want.colour);
+            colours.add(machine_lobe<F>(x, Encoding::colour).colour, want.colour);
+            for (std::size_t k = 0; k < powers.size(); ++k) {
+                powers[k].add(std::pow(got.s, kExponents[k] / 2),
                               std::pow(want.s, kExponents[k] / 2));
             }
         }
-        ward.add(machine_ward<F>(x), exact_ward(x));
+        for (std::size_t k = 0; k < ward.size(); ++k) {
+            ward[k].add(machine_ward<F>(x, wards[k]), exact_ward(x));
+        }
     }
-    lobe.print("modified model, ks (1 - q)", F::kName);
-    narrow[0].print("s^(N/2), N = 4", F::kName);
-    narrow[1].print("s^(N/2), N = 16", F::kName);
-    narrow[2].print("s^(N/2), N = 64", F::kName);
-    ward.print("Ward exponential, \\|u\\| to 2.5", F::kName);
+    signed_maps.print("ks (1 - q), signed maps", F::kName);
+    colours.print("ks (1 - q), maps and h as colours", F::kName);
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+        powers[k].print(fmt::format("s^(N/2), N = {}", kExponents[k]), F::kName);
+    }
+    for (std::size_t k = 0; k < ward.size(); ++k) {
+        ward[k].print(fmt::format("Ward, u/{:.4g}, q/{:.4g}", wards[k], wards[k] * wards[k]), F::kName);
+    }
 }
 
-/// Identities that programs rely on: how many of all register values keep them.
+/// How many of the texels n / last come out of a register as they went in, after a product with
+/// 1 or without.
+template <class F>
+int texels_kept(int last, bool times_one) {
+    int kept = 0;
+    for (int n = 0; n <= last; ++n) {
+        const int in = code<F>(static_cast<double>(n) / last);
+        const int v = times_one ? F::product(in, F::kOne) : in;
+        kept += std::floor(value<F>(v) * last + 0.5) == n ? 1 : 0;
+    }
+    return kept;
+}
+
 template <class F>
 void identities() {
-    int one = 0, half = 0, bytes = 0, expanded = 0, values = 0;
-    for (int v = -F::kOne; v <= F::kOne; ++v, ++values) {
-        one += F::product(v, F::kOne) == v ? 1 : 0;
-        half +=
-            F::product(v, code<F>(0.5)) * 2 - v >= -1 && F::product(v, code<F>(0.5)) * 2 - v <= 1
-                ? 1
-                : 0;
+    int times_one = 0, inverted_twice = 0;
+    double expand_error = 0.0, half_bias_error = 0.0;
+    for (int v = -F::kOne; v <= F::kOne; ++v) times_one += F::product(v, F::kOne) == v ? 1 : 0;
+    for (int v = 0; v <= F::kOne; ++v) inverted_twice += F::kOne - (F::kOne - v) == v ? 1 : 0;
+    for (int n = 0; n <= 65535; ++n) {
+        const double x = n / 65535.0;
+        const int v = code<F>(x);
+        expand_error = std::max(expand_error, std::abs(value<F>(expand<F>(v)) - (2.0 * x - 1.0)));
+        half_bias_error = std::max(half_bias_error, std::abs(value<F>(v - F::kHalf) - (x - 0.5)));
     }
-    for (int n = 0; n < 256; ++n) {
-        const int v = code<F>(n / 255.0);
-        bytes += std::floor(value<F>(v) * 255.0 + 0.5) == n ? 1 : 0;
-        // A normal map's 0, 128/255, should expand to 1/255 and 255/255 to 1.
-        expanded +=
-            std::abs(value<F>(2 * v - F::kOne) - (2.0 * n / 255.0 - 1.0)) * 65535.0 <= 4.0 ? 1 : 0;
-    }
-    fmt::print("| {} | {} of {} | {} of {} | {} of 256 | {} of 256 | {} |\n", F::kName, one, values,
-               half, values, bytes, expanded, F::kOne % 2 == 0 ? "exact" : "between two codes");
+    const auto row = [](const char* what, const std::string& result) {
+        fmt::print("| {} | {} | {} |\n", what, F::kName, result);
+    };
+    row("x 1 = x, x in [-1, 1]", fmt::format("{} of {}", times_one, 2 * F::kOne + 1));
+    row("1 times 1", fmt::format("{} of {}", F::product(F::kOne, F::kOne), F::kOne));
+    row("1 - (1 - x) = x, x in [0, 1]", fmt::format("{} of {}", inverted_twice, F::kOne + 1));
+    row("code of 1/2", 2 * F::kHalf == F::kOne ? "exact" : "half a code off");
+    row("bytes in and out", fmt::format("{} of 256", texels_kept<F>(255, false)));
+    row("the same, times 1", fmt::format("{} of 256", texels_kept<F>(255, true)));
+    row("16-bit texels in and out", fmt::format("{} of 65536", texels_kept<F>(65535, false)));
+    row("the same, times 1", fmt::format("{} of 65536", texels_kept<F>(65535, true)));
+    row("expand of a 16-bit texel, worst", fmt::format("{:.2f} / 65535", expand_error * 65535.0));
+    row("half_bias of it, worst", fmt::format("{:.2f} / 65535", half_bias_error * 65535.0));
 }
 
 }  // namespace
 
 int main() {
     fmt::print(
-        "| pipeline | 1 is | worst | RMS | bias | other 8-bit result "
-        "|\n|---|---|---|---|---|---|\n");
-    pipelines<Q14>();
-    pipelines<Q15>();
-    fmt::print(
-        "\n| 1 is | x 1 = x | x / 2 within half a code | bytes in and out | expand within 4/65535 "
-        "| 1/2 |\n"
-        "|---|---|---|---|---|---|\n");
+        "| pipeline | 1 is | worst, 1/255 | RMS | bias | worst, 1/65535 | RMS | other byte |\n"
+        "|---|---|---|---|---|---|---|---|\n");
+    // The largest q is 2 units on 2^14 and 1 unit on 2^15.
+    pipelines<Q14>({2.0, std::sqrt(3.125)});
+    pipelines<Q15>({4.0, 2.5});
+    fmt::print("\n| what | 1 is | |\n|---|---|---|\n");
     identities<Q14>();
     identities<Q15>();
     return 0;
