@@ -219,7 +219,8 @@ void pipelines(const std::array<double, 2>& wards) {
         powers[k].print(fmt::format("s^(N/2), N = {}", kExponents[k]), F::kName);
     }
     for (std::size_t k = 0; k < ward.size(); ++k) {
-        ward[k].print(fmt::format("Ward, u/{:.4g}, q/{:.4g}", wards[k], wards[k] * wards[k]), F::kName);
+        ward[k].print(fmt::format("Ward, u/{:.4g}, q/{:.4g}", wards[k], wards[k] * wards[k]),
+                      F::kName);
     }
 }
 
