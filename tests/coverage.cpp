@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/aligned.hpp"
-#include "core/cpu.hpp"
 #include "geometry/camera.hpp"
+#include "kernel_test.hpp"
 #include "raster/bin.hpp"
 
 namespace burnish {
@@ -21,22 +21,6 @@ namespace {
 
 constexpr FrameSize kFrame{200, 130};   // no multiple of 8 or 64
 constexpr int kColumns = 4, kRows = 3;  // of tiles
-
-/// Fixed-engine numbers: the same triangles everywhere.
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : m_state(seed * 0x9e3779b97f4a7c15U + 1) {}
-    std::int32_t between(std::int32_t low, std::int32_t high) {
-        m_state ^= m_state << 13;
-        m_state ^= m_state >> 7;
-        m_state ^= m_state << 17;
-        const auto range = static_cast<std::uint64_t>(static_cast<std::int64_t>(high) - low + 1);
-        return static_cast<std::int32_t>(low + static_cast<std::int64_t>((m_state >> 11) % range));
-    }
-
-  private:
-    std::uint64_t m_state;
-};
 
 struct Point {
     std::int64_t x, y;  ///< 1/256 pixel
@@ -154,10 +138,9 @@ class Counts {
     std::vector<int> m_count;
 };
 
-class Coverage : public testing::TestWithParam<const KernelTable*> {
+class Coverage : public KernelTest {
   protected:
-    [[nodiscard]] const KernelTable& table() const { return *GetParam(); }
-    [[nodiscard]] bool scalar() const { return table().lanes == 1; }
+    static bool scalar() { return table().lanes == 1; }
 };
 
 /// Corners of many kinds: anywhere, on pixel centres, close together, at the ends of the window
@@ -184,7 +167,7 @@ TEST_P(Coverage, OfSingleTrianglesIsExact) {
     Canvas canvas(table());
     const int count = scalar() ? 1500 : 6000;
     for (int i = 0; i < count; ++i) {
-        Random random(static_cast<std::uint64_t>(i));
+        Random random(static_cast<unsigned>(i));
         const Point a{random.between(-2000, 53000), random.between(-2000, 35000)};
         const Point b = random_corner(random, a), c = random_corner(random, a);
         std::string wrong;
@@ -214,7 +197,7 @@ TEST_P(Coverage, OfAPlanarGridIsOnce) {
     Canvas canvas(table());
     int triangles = 0;
     for (int round = 0; round < (scalar() ? 5 : 50); ++round) {
-        Random random(1000 + static_cast<std::uint64_t>(round));
+        Random random(1000 + static_cast<unsigned>(round));
         const std::int32_t cell = random.between(3, 11) * 256, step = 1 << random.between(0, 4);
         const int columns = (kFrame.width + 30) * 256 / cell + 2,
                   rows = (kFrame.height + 30) * 256 / cell + 2;
@@ -256,7 +239,7 @@ TEST_P(Coverage, OfAPlanarGridIsOnce) {
 TEST_P(Coverage, OfAFanIsOnce) {
     Canvas canvas(table());
     for (int round = 0; round < (scalar() ? 4 : 60); ++round) {
-        Random random(5000 + static_cast<std::uint64_t>(round));
+        Random random(5000 + static_cast<unsigned>(round));
         const bool on_centre = random.between(0, 2) == 0;
         Point hub{random.between(0, kFrame.width * 256), random.between(0, kFrame.height * 256)};
         if (on_centre) hub = {(hub.x & ~255) + 128, (hub.y & ~255) + 128};
@@ -289,7 +272,7 @@ TEST_P(Coverage, OfAFanIsOnce) {
 TEST_P(Coverage, OfAStripIsOnce) {
     Canvas canvas(table());
     for (int round = 0; round < (scalar() ? 3 : 40); ++round) {
-        Random random(9000 + static_cast<std::uint64_t>(round));
+        Random random(9000 + static_cast<unsigned>(round));
         // Steps wider than the corners stray, so that both sides run on and no two triangles
         // overlap.
         std::vector<Point> top, bottom;
@@ -309,9 +292,9 @@ TEST_P(Coverage, OfAStripIsOnce) {
 }
 
 /// Front faces minus back faces behind every pixel of a closed surface in front of the camera: the
-/// winding number outside of it, 0.
+/// winding number outside of it, 0. `clipped` gets the number of triangles that were cut.
 void check_closed(const MeshData& data, const glm::mat4& place, const KernelTable& kernels,
-                  int round) {
+                  int round, std::uint64_t& clipped) {
     const Mesh mesh(data);
     Camera camera;
     camera.near = 0.001F;
@@ -341,6 +324,7 @@ void check_closed(const MeshData& data, const glm::mat4& place, const KernelTabl
         Chunk chunk;
         chunk.fill({{screen, homogeneous, mesh.indices()}, 0, facing, viewport, kFrame}, 0,
                    mesh.triangle_count());
+        clipped += chunk.counts().clipped;
         for (const SetupTriangle& t : chunk.triangles()) {
             canvas.draw(t, [&, s = sign](int x, int y) { counts.at(x, y) += s; });
         }
@@ -349,37 +333,40 @@ void check_closed(const MeshData& data, const glm::mat4& place, const KernelTabl
 }
 
 TEST_P(Coverage, OfClosedSurfacesIsBalanced) {
-    for (int round = 0; round < (scalar() ? 3 : 24); ++round) {
-        Random random(12000 + static_cast<std::uint64_t>(round));
-        const MeshData data = round % 3 == 0   ? shapes::sphere(40, 20)
-                              : round % 3 == 1 ? shapes::torus_knot(120, 12)
-                                               : shapes::cube();
+    std::uint64_t clipped = 0;
+    for (int round = 0; round < (scalar() ? 4 : 24); ++round) {
+        Random random(12000 + static_cast<unsigned>(round));
+        // Some with corners beyond the guard band; coarse ones, whose triangles reach from the
+        // frame to there.
+        const bool beyond = round % 4 == 3;
+        MeshData data = round % 3 == 0   ? shapes::sphere(beyond ? 7 : 40, beyond ? 5 : 20)
+                        : round % 3 == 1 ? shapes::torus_knot(beyond ? 9 : 120, beyond ? 3 : 12)
+                                         : shapes::cube();
         const auto number = [&](int low, int high) {
             return static_cast<float>(random.between(low, high)) / 100.0F;
         };
-        // Some are larger than the view, with corners beyond the guard band; all stay before the
-        // eye.
-        const bool huge = round % 4 == 3;
-        const float scale = huge ? 300.0F : number(20, 120);
-        const glm::mat4 place =
-            placement({number(-100, 100), number(-80, 80), huge ? -600.0F : number(-60, 60)},
-                      {number(-100, 100), 1.01F, number(-100, 100)}, number(0, 36000), scale);
-        ASSERT_NO_FATAL_FAILURE(check_closed(data, place, table(), round));
+        glm::mat4 place = placement({number(-100, 100), number(-80, 80), number(-60, 60)},
+                                    {number(-100, 100), 1.01F, number(-100, 100)}, number(0, 36000),
+                                    number(20, 120));
+        // All before the eye, 0.1 to 2.6 units away. What is 53 times as far to the side as ahead
+        // is at pixel -8192.
+        if (beyond) {
+            for (glm::vec3& p : data.positions) p = {300.0F * p.x, 0.3F * p.y, p.z};
+            place = placement({0.0F, 0.0F, 1.9F}, {0.0F, 0.0F, 1.0F}, number(0, 36000), 1.0F);
+        }
+        ASSERT_NO_FATAL_FAILURE(check_closed(data, place, table(), round, clipped));
     }
+    EXPECT_GT(clipped, scalar() ? 10U : 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, Coverage,
-                         testing::ValuesIn(available_tables().begin(), available_tables().end()),
-                         [](const testing::TestParamInfo<const KernelTable*>& test) {
-                             return std::string(test.param->isa);
-                         });
+INSTANTIATE_TEST_SUITE_P(Isa, Coverage, every_table(), isa_name);
 
 // What TileTriangle promises of its numbers, at the ends of the window range.
 TEST(TileTriangles, KeepTheirRanges) {
     constexpr FrameSize kLargest{16384, 16384};
     int kept = 0;
     for (int i = 0; i < 20000; ++i) {
-        Random random(20000 + static_cast<std::uint64_t>(i));
+        Random random(20000 + static_cast<unsigned>(i));
         const auto corner = [&] {
             return Point{random.between(-8192 * 256, 24576 * 256 - 1),
                          random.between(-8192 * 256, 24576 * 256 - 1)};
