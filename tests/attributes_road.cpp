@@ -9,6 +9,7 @@
 
 #include "core/dmath.hpp"
 #include "kernel_test.hpp"
+#include "tests/vertex_color.hpp"
 
 namespace burnish {
 namespace {
@@ -57,13 +58,7 @@ double thickness(const Corners& t) {
 }
 
 Scene scene_of(const Corners& t, const Machine& machine) {
-    using namespace combine;
-    ProgramBuilder p;
-    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(Register::col0));
-    p.out_alpha(alpha(raw(Register::col0)));
-    auto material = std::make_shared<Material>();
-    material->program.emplace();
-    material->program->combiners = p.build();
+    const auto material = vertex_color();
     Scene scene;
     scene.machine = machine;
     scene.machine.subpixel_bits = 8;

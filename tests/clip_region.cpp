@@ -14,6 +14,7 @@
 #include "geometry/clip.hpp"
 #include "kernel_test.hpp"
 #include "raster/bin.hpp"
+#include "tests/screen_mesh.hpp"
 #include "tests/tile_painter.hpp"
 
 namespace burnish {
@@ -225,21 +226,9 @@ std::vector<int> layers(const KernelTable& kernels, const Mesh& mesh, const Came
     const Viewport viewport = make_viewport(machine_profile("ideal"), kFrame.width, kFrame.height);
     const glm::mat4 m(make_view(camera, kFrame.width, kFrame.height).clip_from_world *
                       glm::dmat4(place));
-    std::vector<ScreenVertex> screen(mesh.vertex_count());
-    std::vector<HomogeneousVertex> homogeneous(mesh.vertex_count());
-    TransformCtx ctx{mesh.positions()[0],
-                     mesh.positions()[1],
-                     mesh.positions()[2],
-                     static_cast<int>(mesh.vertex_count()),
-                     {},
-                     viewport,
-                     screen.data(),
-                     homogeneous.data()};
-    for (int i = 0; i < 16; ++i) ctx.m[i] = m[i / 4][i % 4];
-    kernels.transform(ctx);
+    const OnScreen seen(kernels, mesh, m, viewport);
     Chunk chunk;
-    chunk.fill({{screen, homogeneous, mesh.indices()}, 0, Facing::any, viewport, kFrame}, 0,
-               mesh.triangle_count());
+    chunk.fill({seen.mesh(), 0, Facing::any, viewport, kFrame}, 0, mesh.triangle_count());
     counts = chunk.counts();
     TilePainter painter(kernels);
     std::vector<int> result(static_cast<std::size_t>(kFrame.width * kFrame.height), 0);

@@ -15,6 +15,7 @@
 #include "geometry/camera.hpp"
 #include "kernel_test.hpp"
 #include "raster/bin.hpp"
+#include "tests/screen_mesh.hpp"
 
 namespace burnish {
 namespace {
@@ -305,25 +306,13 @@ void check_closed(const MeshData& data, const glm::mat4& place, const KernelTabl
     const Viewport viewport = make_viewport(machine, kFrame.width, kFrame.height);
     const glm::mat4 m(make_view(camera, kFrame.width, kFrame.height).clip_from_world *
                       glm::dmat4(place));
-    std::vector<ScreenVertex> screen(mesh.vertex_count());
-    std::vector<HomogeneousVertex> homogeneous(mesh.vertex_count());
-    TransformCtx ctx{mesh.positions()[0],
-                     mesh.positions()[1],
-                     mesh.positions()[2],
-                     static_cast<int>(mesh.vertex_count()),
-                     {},
-                     viewport,
-                     screen.data(),
-                     homogeneous.data()};
-    for (int i = 0; i < 16; ++i) ctx.m[i] = m[i / 4][i % 4];
-    kernels.transform(ctx);
+    const OnScreen seen(kernels, mesh, m, viewport);
     Canvas canvas(kernels);
     Counts counts;
     for (const auto& [facing, sign] :
          {std::pair{Facing::front_only, 1}, std::pair{Facing::back_only, -1}}) {
         Chunk chunk;
-        chunk.fill({{screen, homogeneous, mesh.indices()}, 0, facing, viewport, kFrame}, 0,
-                   mesh.triangle_count());
+        chunk.fill({seen.mesh(), 0, facing, viewport, kFrame}, 0, mesh.triangle_count());
         clipped += chunk.counts().clipped;
         for (const SetupTriangle& t : chunk.triangles()) {
             canvas.draw(t, [&, s = sign](int x, int y) { counts.at(x, y) += s; });

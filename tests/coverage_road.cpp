@@ -13,6 +13,7 @@
 #include "kernel_test.hpp"
 #include "tests/exact_coverage.hpp"
 #include "tests/tile_painter.hpp"
+#include "tests/vertex_color.hpp"
 
 namespace burnish {
 namespace {
@@ -255,18 +256,6 @@ TEST_P(Road, FansAndStripsAddUpToTheirOutline) {
             }
         }
     });
-}
-
-/// Passes colour 0 through.
-std::shared_ptr<const Material> vertex_color() {
-    using namespace combine;
-    ProgramBuilder p;
-    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(Register::col0));
-    p.out_alpha(alpha(raw(Register::col0)));
-    auto material = std::make_shared<Material>();
-    material->program.emplace();
-    material->program->combiners = p.build();
-    return material;
 }
 
 glm::vec4 color_of(std::size_t number) {

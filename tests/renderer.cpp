@@ -11,6 +11,8 @@
 #include <memory>
 #include <vector>
 
+#include "tests/vertex_color.hpp"
+
 namespace burnish {
 namespace {
 
@@ -19,18 +21,6 @@ using Rgba = std::array<std::uint8_t, 4>;
 Rgba pixel(const Framebuffer& frame, int x, int y) {
     const auto* p = reinterpret_cast<const std::uint8_t*>(frame.row(y)) + 4 * x;
     return {p[0], p[1], p[2], p[3]};
-}
-
-/// Passes colour 0 through.
-std::shared_ptr<Material> vertex_color() {
-    using namespace combine;
-    ProgramBuilder p;
-    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(Register::col0));
-    p.out_alpha(alpha(raw(Register::col0)));
-    auto material = std::make_shared<Material>();
-    material->program.emplace();
-    material->program->combiners = p.build();
-    return material;
 }
 
 RawVertex corner(float x, float y, float z, const Rgba& color, float w = 1.0F) {

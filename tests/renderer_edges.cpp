@@ -14,23 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/vertex_color.hpp"
+
 namespace burnish {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// Passes colour 0 through.
-std::shared_ptr<Material> vertex_color() {
-    using namespace combine;
-    ProgramBuilder p;
-    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(Register::col0));
-    p.out_alpha(alpha(raw(Register::col0)));
-    auto material = std::make_shared<Material>();
-    material->program.emplace();
-    material->program->combiners = p.build();
-    return material;
-}
 
 Scene black_scene(const char* machine = "nv2a") {
     Scene scene;
