@@ -54,7 +54,7 @@ struct EncodeCtx {
 enum class AddressMode : std::uint8_t { repeat, clamp_to_edge };
 
 /// Texel addresses and weights from coordinates u, v (v downward: row 0 at 0).
-/// u *= 1/q first where there is a q (u = u / q).
+/// Where there is a q, u = u / q and v = v / q first.
 /// repeat: f = u - floor(u); clamp_to_edge: f = u. Then f = min(max(f, 0), 1) (NaN gives 0),
 /// x = int(f * float(256 * width)) - (linear ? 128 : 0), texel x0 = x >> 8, weight = x & 255.
 /// repeat: x0 < 0 becomes x0 + width, x0 >= width becomes x0 - width.

@@ -139,8 +139,8 @@ struct CombinerProgram {
 /// Short names for building programs in C++:
 ///
 ///     ProgramBuilder p;
-///     p.rgb().ab(dot(expand(tex(0)), expand(Register::col0)), Register::spare0);
-///     p.next_stage().rgb()...
+///     p.stage().rgb().ab(dot(expand(tex(0)), expand(Register::col0)), Register::spare0);
+///     p.lerp(raw(Register::spare0), ...);
 namespace combine {
 
 struct ProductExpr {
