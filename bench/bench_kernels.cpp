@@ -111,9 +111,12 @@ struct Tile {
     AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels, kNoTriangle);
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
 
+    std::vector<std::uint64_t> drawn;
+
     void draw(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
+        drawn.resize(triangles.size());
         table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
-                         id.data(), block_far.data()});
+                         id.data(), block_far.data(), drawn.data()});
     }
 };
 
@@ -181,30 +184,37 @@ void add_rasterize() {
     }
 }
 
-void add_match() {
-    for (const int kinds : {1, 2, 8}) {
-        AlignedVector<std::uint32_t> ids(kBlockPixels);
-        for (int i = 0; i < kBlockPixels; ++i)
-            ids[static_cast<std::size_t>(i)] =
-                static_cast<std::uint32_t>((i % 8 + i / 8) * kinds / 15);
+/// The fragments of squares(side), as `rasterize` left them.
+struct Fragments {
+    std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(kTilePixels + 8);
+    std::vector<std::uint16_t> size;
+
+    void collect(const KernelTable& table, const Tile& tile) {
+        size.resize(tile.drawn.size());
+        table.collect({tile.id.data(), tile.drawn.data(), static_cast<int>(tile.drawn.size()),
+                       pixels.data(), size.data()});
+    }
+};
+
+void add_collect() {
+    for (const int side : {4, 16, 64}) {
+        Tile tile;
+        tile.draw(table_reference(), squares(side));
         add(
-            "match/triangles_" + std::to_string(kinds), kBlockPixels,
+            "collect/squares_" + std::to_string(side), kTilePixels,
             [=](const KernelTable& table) -> std::string {
-                BlockTriangles got{};
-                BlockTriangles want{};
-                table.match({ids.data(), ~std::uint64_t{0}, 0, &got});
-                table_reference().match({ids.data(), ~std::uint64_t{0}, 0, &want});
-                bool same = got.count == want.count;
-                for (int k = 0; same && k < want.count; ++k)
-                    same = got.id[k] == want.id[k] && got.size[k] == want.size[k];
-                for (int i = 0; same && i < kBlockPixels; ++i)
-                    same = got.pixels[i] == want.pixels[i];
-                return same ? "" : "triangles of a block";
+                Fragments got;
+                Fragments want;
+                got.collect(table, tile);
+                want.collect(table_reference(), tile);
+                got.pixels.resize(kTilePixels);
+                want.pixels.resize(kTilePixels);
+                return got.size == want.size && got.pixels == want.pixels ? "" : "fragments";
             },
             [=](const KernelTable& table, benchmark::State& state) {
-                BlockTriangles out{};
+                Fragments out;
                 for (auto _ : state) {
-                    table.match({ids.data(), ~std::uint64_t{0}, 0, &out});
+                    out.collect(table, tile);
                     benchmark::ClobberMemory();
                 }
             });
@@ -456,7 +466,7 @@ int main(int argc, char** argv) {
     benchmark::AddCustomContext("cpu", cpu_name());
     add_transform();
     add_rasterize();
-    add_match();
+    add_collect();
     add_attributes();
     add_lighting_and_encode();
     add_texels();

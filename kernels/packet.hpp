@@ -26,7 +26,7 @@ inline constexpr int kAttributeStride = kPacketSize + 16;
 /// index = (y / 8 * 8 + x / 8) * 64 + (y % 8) * 8 + x % 8, so that a whole block is contiguous.
 
 /// Fragments of one material and tile, structure of arrays; one worker's scratch memory. All
-/// pointers are aligned to 64 bytes.
+/// pointers but `pixels` are aligned to 64 bytes.
 struct Packet {
     int count;                    ///< fragments in use, 1 .. kPacketSize
     const std::uint16_t* pixels;  ///< index within the tile, 0 .. kTilePixels - 1; no two alike

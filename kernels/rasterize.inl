@@ -127,9 +127,10 @@ struct AnyRule {
     static bool writes(const TileTriangle& t) { return t.depth_write != 0; }
 };
 
-/// Coverage, depth test and visibility of one block; `Crossed`: an edge runs through it.
+/// Coverage, depth test and visibility of one block; `Crossed`: an edge runs through it. True if a
+/// fragment passed.
 template <bool Crossed, class Rule>
-inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x, int y,
+inline bool draw_block(const TileTriangle& t, const TriangleEdges& edges, int x, int y,
                        float* depth, std::uint32_t* id) {
     const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
     const I32 new_id(static_cast<std::int32_t>(t.id));
@@ -149,6 +150,7 @@ inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x,
         first = above / kVectorRows * kRowVectors;
         end = (last_row / kVectorRows + 1) * kRowVectors;
     }
+    Mask32 any(false);
     for (int v = first; v < end; ++v) {
         // Whole numbers below 2^24: exact, however they are added.
         const F32 dy = lanes_y + F32(static_cast<float>(v / kRowVectors * kVectorRows));
@@ -160,12 +162,14 @@ inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x,
                                 (base[2] + edges.lanes[2][v]);
             write = write & (outside >= I32(0));
         }
+        any = any | write;
         auto* ids = reinterpret_cast<std::int32_t*>(id) + v * kLanes32;
         store(ids, ::xsimd::select(write, new_id, load(ids)));
         if (Rule::writes(t)) {
             store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
         }
     }
+    return bits(any) != 0;
 }
 
 /// Upper bound of a block's depths after the triangle was drawn in it.
@@ -181,8 +185,10 @@ inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, 
     return farthest < far ? farthest : far;
 }
 
+/// Returns the blocks in which a fragment passed.
 template <class Rule>
-void rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
+std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
+    std::uint64_t drawn = 0;
     TriangleEdges edges;
     set_edges(t, edges);
     const BlockMasks masks = classify_blocks(t, edges, ctx.block_far);
@@ -192,14 +198,13 @@ void rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
         const bool crossed = (masks.crossed >> block & 1) != 0;
         float* const depth = ctx.depth + block * kBlockPixels;
         std::uint32_t* const id = ctx.id + block * kBlockPixels;
-        if (crossed) {
-            draw_block<true, Rule>(t, edges, x, y, depth, id);
-        } else {
-            draw_block<false, Rule>(t, edges, x, y, depth, id);
-        }
+        const bool passed = crossed ? draw_block<true, Rule>(t, edges, x, y, depth, id)
+                                    : draw_block<false, Rule>(t, edges, x, y, depth, id);
+        drawn |= static_cast<std::uint64_t>(passed ? 1 : 0) << block;
         float& far = ctx.block_far[block];
         far = updated_far(t, x, y, !crossed, far);
     }
+    return drawn;
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
@@ -207,11 +212,8 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
         const TileTriangle& t = ctx.triangles[i];
         const bool usual =
             t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
-        if (usual) {
-            rasterize_triangle<NearerWins>(t, ctx);
-        } else {
-            rasterize_triangle<AnyRule>(t, ctx);
-        }
+        ctx.drawn[i] =
+            usual ? rasterize_triangle<NearerWins>(t, ctx) : rasterize_triangle<AnyRule>(t, ctx);
     }
 }
 
@@ -250,26 +252,21 @@ std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel, std:
     return out;
 }
 
-void match(const MatchCtx& ctx) noexcept {
-    const auto* ids = reinterpret_cast<const std::int32_t*>(ctx.id);
-    const auto equal = [&](std::uint32_t id) {
-        std::uint64_t mask = 0;
-        for (int v = 0; v < kBlockVectors; ++v) {
-            const Mask32 same = load(ids + v * kLanes32) == I32(static_cast<std::int32_t>(id));
-            mask |= static_cast<std::uint64_t>(bits(same)) << (v * kLanes32);
+void collect(const CollectCtx& ctx) noexcept {
+    std::uint16_t* out = ctx.pixels;
+    for (int k = 0; k < ctx.count; ++k) {
+        const I32 id(k);
+        std::uint16_t* const first = out;
+        for (std::uint64_t rest = ctx.drawn[k]; rest != 0; rest &= rest - 1) {
+            const int first_pixel = __builtin_ctzll(rest) * kBlockPixels;
+            const auto* ids = reinterpret_cast<const std::int32_t*>(ctx.id) + first_pixel;
+            std::uint64_t shown = 0;
+            for (int v = 0; v < kBlockVectors; ++v) {
+                shown |= static_cast<std::uint64_t>(bits(load(ids + v * kLanes32) == id))
+                         << (v * kLanes32);
+            }
+            out = append_pixels(shown, static_cast<std::uint64_t>(first_pixel), out);
         }
-        return mask;
-    };
-    int count = 0;
-    std::uint16_t* pixels = ctx.out->pixels;
-    for (std::uint64_t rest = ~equal(kNoTriangle) & ctx.inside; rest != 0; ++count) {
-        const std::uint32_t id = ctx.id[__builtin_ctzll(rest)];
-        const std::uint64_t mask = equal(id) & rest;
-        std::uint16_t* const end = append_pixels(mask, ctx.first_pixel, pixels);
-        ctx.out->id[count] = id;
-        ctx.out->size[count] = static_cast<std::uint8_t>(end - pixels);
-        pixels = end;
-        rest &= ~mask;
+        ctx.size[k] = static_cast<std::uint16_t>(out - first);
     }
-    ctx.out->count = count;
 }

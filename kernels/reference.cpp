@@ -109,6 +109,7 @@ float depth_at(const TileTriangle& t, int x, int y) {
 void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int k = 0; k < ctx.count; ++k) {
         const TileTriangle& t = ctx.triangles[k];
+        ctx.drawn[k] = 0;
         for (int y = t.y0; y <= t.y1; ++y) {
             for (int x = t.x0; x <= t.x1; ++x) {
                 if (!covers(t, x, y)) continue;
@@ -120,6 +121,7 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
                                                 : t.pass_equal != 0;
                 if (!pass) continue;
                 ctx.id[pixel] = t.id;
+                ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
                 if (t.depth_write != 0) ctx.depth[pixel] = depth;
             }
         }
@@ -130,24 +132,16 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
     }
 }
 
-void match(const MatchCtx& ctx) noexcept {
-    BlockTriangles& out = *ctx.out;
-    out.count = 0;
-    const auto shown = [&](int pixel) {
-        return (ctx.inside >> pixel & 1) != 0 && ctx.id[pixel] != kNoTriangle;
-    };
-    int listed = 0;
-    for (int first = 0; first < kBlockPixels; ++first) {
-        const std::uint32_t id = ctx.id[first];
-        std::uint32_t* const end = out.id + out.count;
-        if (!shown(first) || std::find(out.id + 0, end, id) != end) continue;
-        const int before = listed;
-        for (int pixel = first; pixel < kBlockPixels; ++pixel) {
-            if (!shown(pixel) || ctx.id[pixel] != id) continue;
-            out.pixels[listed++] = static_cast<std::uint16_t>(ctx.first_pixel + pixel);
+void collect(const CollectCtx& ctx) noexcept {
+    std::uint16_t* out = ctx.pixels;
+    for (int k = 0; k < ctx.count; ++k) {
+        std::uint16_t* const first = out;
+        for (int pixel = 0; pixel < kTilePixels; ++pixel) {
+            const bool drawn = (ctx.drawn[k] >> pixel / kBlockPixels & 1) != 0;
+            if (drawn && ctx.id[pixel] == static_cast<std::uint32_t>(k))
+                *out++ = static_cast<std::uint16_t>(pixel);
         }
-        out.id[out.count] = id;
-        out.size[out.count++] = static_cast<std::uint8_t>(listed - before);
+        ctx.size[k] = static_cast<std::uint16_t>(out - first);
     }
 }
 
@@ -513,7 +507,7 @@ const KernelTable& table_reference() noexcept {
         .lanes = 1,
         .transform = transform,
         .rasterize = rasterize,
-        .match = match,
+        .collect = collect,
         .attributes = attributes,
         .lighting = lighting,
         .encode_nine_bit = encode<NineBit>,

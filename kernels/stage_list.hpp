@@ -10,7 +10,7 @@
 #define BURNISH_TILE_STAGES(X) \
     X(transform, TransformCtx) \
     X(rasterize, RasterizeCtx) \
-    X(match, MatchCtx)
+    X(collect, CollectCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
 #define BURNISH_PACKET_STAGES(X)    \

@@ -90,31 +90,26 @@ struct TileTriangle {
 /// in float, no operation fused; where the depth test passes, `id` and (with depth_write) `depth`
 /// are replaced. Equal depths compare equal; there are no NaNs.
 /// `block_far[k]` is an upper bound of the depths of block k, kept up to date; kernels may skip a
-/// block by it only where no fragment of it could pass.
+/// block by it only where no fragment of it could pass. Bit k of a triangle's `drawn` tells whether
+/// a fragment of it passed in block k.
 struct RasterizeCtx {
     const TileTriangle* triangles;
     int count;
-    float* depth;       ///< kTilePixels
-    std::uint32_t* id;  ///< kTilePixels
-    float* block_far;   ///< kTileBlocks
+    float* depth;          ///< kTilePixels
+    std::uint32_t* id;     ///< kTilePixels
+    float* block_far;      ///< kTileBlocks
+    std::uint64_t* drawn;  ///< out, `count` elements
 };
 
-/// Distinct triangles of one 8x8 block, in the order of their first pixels, with the pixels that
-/// show them: tile indices, triangle after triangle, rising within each.
-struct BlockTriangles {
+/// Visible fragments of a tile, triangle after triangle, block after block, rising in each block.
+/// The visibility buffer shows triangles 0 .. count - 1; where it shows something else, nothing is
+/// listed.
+struct CollectCtx {
+    const std::uint32_t* id;     ///< kTilePixels
+    const std::uint64_t* drawn;  ///< per triangle, as RasterizeCtx has it: all blocks that show it
     int count;
-    std::uint32_t id[kBlockPixels];
-    std::uint8_t size[kBlockPixels];         ///< pixels of each triangle
-    std::uint16_t pixels[kBlockPixels + 8];  ///< kernels may write 8 values past the last
-};
-
-/// Fills `out` from 64 ids of the visibility buffer. Left out: kNoTriangle, and pixels whose bit of
-/// `inside` is 0.
-struct MatchCtx {
-    const std::uint32_t* id;
-    std::uint64_t inside;       ///< bit i: pixel i of the block lies in the frame
-    std::uint16_t first_pixel;  ///< tile index of the block's pixel 0
-    BlockTriangles* out;
+    std::uint16_t* pixels;  ///< out: tile indices; kernels may write 8 values past the last
+    std::uint16_t* size;    ///< out: pixels of each triangle, 0 .. kTilePixels
 };
 
 }  // namespace burnish

@@ -6,7 +6,6 @@
 #include <burnish/renderer.hpp>
 #include <chrono>
 #include <new>
-#include <numeric>
 
 #include "core/cpu.hpp"
 #include "draw.hpp"
@@ -40,7 +39,6 @@ struct Worker {
     TileVisibility visibility;
     PacketShader shader;
     TileImage image;
-    BlockTriangles block{};
     std::uint64_t tiles = 0;
 };
 
@@ -62,7 +60,6 @@ struct Renderer::State {
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
-    void shade_tile(Worker& worker, bool first_round) const;
     float* saved_depth(std::int32_t x, std::int32_t y);
 
     const KernelTable& kernels;
@@ -231,7 +228,7 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
 }
 
 /// Everything of one tile, in one worker's cache: depth and visibility of all triangles, then the
-/// colours of what is visible, then once to the frame.
+/// colours of what is visible over the background, then once to the frame.
 void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                                 bool first_round, bool last_round) {
     TileVisibility& visibility = worker.visibility;
@@ -245,31 +242,12 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     for (const auto& chunk : binned) visibility.draw(*chunk, depth_rules, kernels);
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
     if (!first_round) worker.image.load(target, visibility.left(), visibility.top());
-    shade_tile(worker, first_round);
+    const TileFragments fragments = visibility.collect(kernels);
+    if (first_round && fragments.count < kTilePixels) worker.image.clear();
+    const ShadedTile tile{visibility.left(), visibility.top(), store_format(worker.image.format()),
+                          worker.image.pixels()};
+    worker.shader.shade(fragments, shaded_draws, tile, kernels);
     worker.image.resolve(target, visibility.left(), visibility.top());
-}
-
-/// Fragments to packets, block by block; background where a block is not filled.
-void Renderer::State::shade_tile(Worker& worker, bool first_round) const {
-    const TileVisibility& visibility = worker.visibility;
-    const auto triangles = visibility.triangles();
-    worker.shader.begin(kernels, visibility.left(), visibility.top(), triangles.size(),
-                        store_format(worker.image.format()), worker.image.pixels());
-    for (int block = 0; block < kTileBlocks; ++block) {
-        visibility.match_block(block, kernels, worker.block);
-        const auto& sizes = worker.block.size;
-        const int shown = std::accumulate(sizes, sizes + worker.block.count, 0);
-        if (first_round && shown < kBlockPixels) worker.image.clear_block(block);
-        const std::uint16_t* pixels = worker.block.pixels;
-        for (int i = 0; i < worker.block.count; ++i) {
-            const std::uint32_t id = worker.block.id[i];
-            const SetupTriangle& triangle = *triangles[id];
-            worker.shader.add(shaded_draws[triangle.draw], triangle, id, pixels,
-                              worker.block.size[i]);
-            pixels += worker.block.size[i];
-        }
-    }
-    worker.shader.finish();
 }
 
 }  // namespace burnish

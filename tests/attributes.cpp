@@ -142,19 +142,23 @@ class Measure {
             for (std::int32_t x = 0; x * kTileSize < size.width; ++x) {
                 tile.begin(x, y, size, nullptr);
                 tile.draw(chunk, {&rule, 1}, m_kernels);
-                for (int block = 0; block < kTileBlocks; ++block) measure_block(tile, block);
+                measure_tile(tile);
             }
         }
         return m_errors;
     }
 
   private:
-    void measure_block(const TileVisibility& tile, int block) {
-        BlockTriangles found{};
-        tile.match_block(block, m_kernels, found);
+    void measure_tile(TileVisibility& tile) {
+        const TileFragments found = tile.collect(m_kernels);
         const std::uint16_t* pixels = found.pixels;
-        for (int i = 0; i < found.count; pixels += found.size[i], ++i) {
-            measure_run(tile, *tile.triangles()[found.id[i]], pixels, found.size[i]);
+        for (std::size_t i = 0; i < found.triangles.size(); ++i) {
+            for (int left = found.size[i]; left > 0;) {
+                const int count = std::min(left, kPacketSize);
+                measure_run(tile, *found.triangles[i], pixels, count);
+                pixels += count;
+                left -= count;
+            }
         }
     }
 

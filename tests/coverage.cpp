@@ -94,8 +94,10 @@ class Canvas {
         seen.id = m_next_id;
         seen.pass_less = seen.pass_equal = seen.pass_greater = 1;
         const auto tile = static_cast<std::size_t>(ty * kColumns + tx);
+        std::uint64_t drawn = 0;
         m_kernels.rasterize({&seen, 1, m_depth.data() + tile * kTilePixels,
-                             m_id.data() + tile * kTilePixels, m_far.data() + tile * kTileBlocks});
+                             m_id.data() + tile * kTilePixels, m_far.data() + tile * kTileBlocks,
+                             &drawn});
         int covered = 0;
         // All blocks that the box touches, so that pixels beside the triangle would be seen.
         for (int y = seen.y0 & ~7; y <= (seen.y1 | 7); ++y) {

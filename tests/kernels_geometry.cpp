@@ -1,12 +1,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "kernel_test.hpp"
 
-/// Vertices, coverage and depth, and the triangles of a block.
+/// Vertices, coverage and depth, and the fragments of a tile.
 namespace burnish {
 namespace {
 
@@ -231,6 +232,7 @@ struct Tile {
     AlignedVector<float> depth;
     AlignedVector<std::uint32_t> id;
     AlignedVector<float> block_far;
+    std::vector<std::uint64_t> drawn;  ///< of all triangles so far
 
     /// Cleared, or with levels from which triangles differ little; bounds exact or loose.
     explicit Tile(Random& random)
@@ -244,8 +246,10 @@ struct Tile {
         }
     }
     void run(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
+        const std::size_t before = drawn.size();
+        drawn.resize(before + triangles.size(), ~std::uint64_t{0});
         table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
-                         id.data(), block_far.data()});
+                         id.data(), block_far.data(), drawn.data() + before});
     }
 };
 
@@ -257,6 +261,7 @@ void expect_same(const Tile& got, const Tile& want, const std::string& where) {
         ASSERT_GE(got.block_far[i / kBlockPixels], got.depth[i])
             << where << ", pixel " << i << ": beyond its block's bound";
     }
+    ASSERT_EQ(got.drawn, want.drawn) << where;
 }
 
 TEST_P(KernelTest, RasterizeOfRandomTriangles) {
@@ -321,54 +326,90 @@ TEST_P(KernelTest, WholeTileInFrontLowersEveryBound) {
     std::fill(tile.depth.begin(), tile.depth.end(), 1.0F);
     tile.run(table(), {t});
     for (const float bound : tile.block_far) EXPECT_EQ(bound, 0.25F) << name("rasterize");
+    EXPECT_EQ(tile.drawn.front(), ~std::uint64_t{0}) << name("rasterize");
     for (const std::uint32_t id : tile.id) ASSERT_EQ(id, 0U) << name("rasterize");
 }
 
-// ---- match
+// ---- collect
 
-void check_match(const KernelTable& table, const std::array<std::uint32_t, kBlockPixels>& ids,
-                 unsigned seed, std::uint64_t inside) {
-    AlignedVector<std::uint32_t> block(ids.begin(), ids.end());
-    BlockTriangles got{};
-    BlockTriangles want{};
-    const auto first_pixel = static_cast<std::uint16_t>(seed % kTileBlocks * kBlockPixels);
-    table.match({block.data(), inside, first_pixel, &got});
-    table_reference().match({block.data(), inside, first_pixel, &want});
-    ASSERT_EQ(got.count, want.count) << table.isa << " match, seed " << seed;
-    int pixels = 0;
-    for (int k = 0; k < want.count; ++k) {
-        ASSERT_EQ(got.id[k], want.id[k]) << table.isa << " match, seed " << seed << ", slot " << k;
-        ASSERT_EQ(got.size[k], want.size[k])
-            << table.isa << " match, seed " << seed << ", slot " << k;
-        pixels += want.size[k];
+/// A visibility buffer and the blocks that show each triangle, or more of them.
+struct Visible {
+    AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels, kNoTriangle);
+    std::vector<std::uint64_t> drawn;
+
+    /// `per_block`: triangles that share a block; `empty`: one pixel in so many shows nothing.
+    Visible(Random& random, int triangles, int per_block, int empty)
+        : drawn(static_cast<std::size_t>(triangles)) {
+        for (std::size_t block = 0; block < kTileBlocks; ++block) {
+            std::vector<int> here;
+            for (int i = 0; i < per_block; ++i) here.push_back(random.below(triangles));
+            for (std::size_t i = 0; i < kBlockPixels; ++i) {
+                if (random.chance(empty)) continue;
+                const int k = random.pick(here);
+                id[block * kBlockPixels + i] = static_cast<std::uint32_t>(k);
+                drawn[static_cast<std::size_t>(k)] |= std::uint64_t{1} << block;
+            }
+        }
+        for (std::uint64_t& blocks : drawn) {  // drawn there, then drawn over
+            if (random.chance(3)) blocks |= random.engine();
+        }
     }
-    for (int k = 0; k < pixels; ++k) {
-        ASSERT_EQ(got.pixels[k], want.pixels[k])
-            << table.isa << " match, seed " << seed << ", pixel " << k;
-    }
+};
+
+void check_collect(const KernelTable& table, const Visible& v, const std::string& where) {
+    struct Lists {
+        std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(kTilePixels + 8, 0xffff);
+        std::vector<std::uint16_t> size;
+    };
+    const auto lists = [&](const KernelTable& kernels) {
+        Lists out;
+        out.size.resize(v.drawn.size(), 0xffff);
+        kernels.collect({v.id.data(), v.drawn.data(), static_cast<int>(v.drawn.size()),
+                         out.pixels.data(), out.size.data()});
+        out.pixels.resize(std::accumulate(out.size.begin(), out.size.end(), std::size_t{0}));
+        return out;
+    };
+    const Lists got = lists(table), want = lists(table_reference());
+    ASSERT_EQ(got.size, want.size) << where;
+    ASSERT_EQ(got.pixels, want.pixels) << where;
 }
 
-TEST_P(KernelTest, MatchOfRandomBlocks) {
-    for (unsigned seed = 0; seed < 3000; ++seed) {
+TEST_P(KernelTest, CollectOfRandomTiles) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
         Random random(seed);
-        const int kinds = random.pick(std::array{1, 2, 3, 5, 17, 64, 1000});
+        const int triangles = random.pick(std::array{1, 2, 7, 40, 300});
+        const int per_block = random.pick(std::array{1, 2, 5, 64});
         const int empty = random.pick(std::array{1, 2, 10, 1000000});
-        std::array<std::uint32_t, kBlockPixels> ids{};
-        for (std::uint32_t& id : ids)
-            id = random.chance(empty)
-                     ? kNoTriangle
-                     : static_cast<std::uint32_t>(random.below(kinds)) * 0x01010101U;
-        std::uint64_t inside = ~std::uint64_t{0};  // or some columns and rows of the block
-        if (random.chance(3)) inside >>= 8 * random.below(8);
-        if (random.chance(3)) inside &= 0x0101010101010101U * (0xffU >> random.below(8));
-        ASSERT_NO_FATAL_FAILURE(check_match(table(), ids, seed, inside));
+        const Visible v(random, triangles, per_block, empty);
+        ASSERT_NO_FATAL_FAILURE(
+            check_collect(table(), v, name("collect") + ", seed " + std::to_string(seed)));
     }
 }
 
-TEST_P(KernelTest, MatchOfSixtyFourTriangles) {
-    std::array<std::uint32_t, kBlockPixels> ids{};
-    for (std::uint32_t i = 0; i < kBlockPixels; ++i) ids[i] = 0xfffffffeU - i;
-    check_match(table(), ids, 0, ~std::uint64_t{0});
+TEST_P(KernelTest, CollectOfAWholeTileIsEveryPixelInOrder) {
+    const AlignedVector<std::uint32_t> id(kTilePixels, 1);
+    const std::array<std::uint64_t, 3> drawn{0, ~std::uint64_t{0}, ~std::uint64_t{0}};
+    std::vector<std::uint16_t> pixels(kTilePixels + 8);
+    std::array<std::uint16_t, 3> size{};
+    table().collect({id.data(), drawn.data(), 3, pixels.data(), size.data()});
+    EXPECT_EQ(size, (std::array<std::uint16_t, 3>{0, kTilePixels, 0}));
+    for (std::size_t i = 0; i < kTilePixels; ++i) ASSERT_EQ(pixels[i], i) << name("collect");
+}
+
+TEST_P(KernelTest, CollectOfFourThousandTriangles) {
+    AlignedVector<std::uint32_t> id(kTilePixels);
+    std::vector<std::uint64_t> drawn(kTilePixels);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+        const std::size_t k = i * 1237 % kTilePixels;  // odd, so every triangle once
+        id[i] = static_cast<std::uint32_t>(k);
+        drawn[k] = std::uint64_t{1} << i / kBlockPixels;
+    }
+    std::vector<std::uint16_t> pixels(kTilePixels + 8), size(kTilePixels);
+    table().collect({id.data(), drawn.data(), kTilePixels, pixels.data(), size.data()});
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        ASSERT_EQ(size[k], 1) << name("collect");
+        ASSERT_EQ(id[pixels[k]], k) << name("collect");
+    }
 }
 
 }  // namespace

@@ -79,9 +79,10 @@ struct Tile {
     AlignedVector<float> depth = AlignedVector<float>(kTilePixels, 1.0F);
     AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels, kNoTriangle);
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
+    std::uint64_t drawn = 0;  ///< of the last triangle
 
     void draw(const KernelTable& table, const TileTriangle& t) {
-        table.rasterize({&t, 1, depth.data(), id.data(), block_far.data()});
+        table.rasterize({&t, 1, depth.data(), id.data(), block_far.data(), &drawn});
     }
     [[nodiscard]] std::uint32_t at(int x, int y) const {
         return id[static_cast<std::size_t>(tile_pixel(x, y))];
@@ -157,21 +158,37 @@ TEST_P(ReferencePixels, DepthTestsAndWrites) {
     }
 }
 
-TEST_P(ReferencePixels, TrianglesOfABlockInOrderOfAppearance) {
-    AlignedVector<std::uint32_t> id(kBlockPixels, kNoTriangle);
-    id[3] = id[63] = 9;
-    id[4] = 2;
-    BlockTriangles out{};
-    id[5] = 7;  // outside the frame
-    table().match({id.data(), ~(std::uint64_t{1} << 5), 640, &out});
-    ASSERT_EQ(out.count, 2);
-    EXPECT_EQ(out.id[0], 9U);
-    EXPECT_EQ(out.size[0], 2);
-    EXPECT_EQ(out.pixels[0], 643);
-    EXPECT_EQ(out.pixels[1], 703);
-    EXPECT_EQ(out.id[1], 2U);
-    EXPECT_EQ(out.size[1], 1);
-    EXPECT_EQ(out.pixels[2], 644);
+TEST_P(ReferencePixels, FragmentsTriangleByTriangle) {
+    AlignedVector<std::uint32_t> id(kTilePixels, kNoTriangle);
+    id[643] = id[703] = id[64] = 2;
+    id[644] = 0;
+    id[5] = 3;  // not of these triangles
+    const std::array<std::uint64_t, 3> drawn{1U << 10, ~std::uint64_t{0}, 1U << 10 | 1U << 1};
+    std::array<std::uint16_t, 16> pixels{};
+    std::array<std::uint16_t, 3> size{};
+    table().collect({id.data(), drawn.data(), 3, pixels.data(), size.data()});
+    EXPECT_EQ(size, (std::array<std::uint16_t, 3>{1, 0, 3}));
+    EXPECT_EQ(pixels[0], 644);
+    EXPECT_EQ(pixels[1], 64);
+    EXPECT_EQ(pixels[2], 643);
+    EXPECT_EQ(pixels[3], 703);
+}
+
+TEST_P(ReferencePixels, DrawnBlocksAreThoseWhereAFragmentPassed) {
+    Tile tile;
+    TileTriangle t = flat(0.5F);
+    t.x0 = 7;  // columns 7 .. 8, rows 0 .. 15: blocks 0, 1, 8, 9
+    t.x1 = 8;
+    t.y1 = 15;
+    set_edge(t, 1, 0, -7);
+    set_edge(t, -1, 0, 8);
+    set_edge(t, 0, -1, 15);
+    tile.depth[static_cast<std::size_t>(tile_pixel(7, 3))] = 0.75F;
+    for (int y = 0; y < 8; ++y) {  // nothing passes in block 1
+        tile.depth[static_cast<std::size_t>(tile_pixel(8, y))] = 0.25F;
+    }
+    tile.draw(table(), t);
+    EXPECT_EQ(tile.drawn, 1U | 1U << 8 | 1U << 9);
 }
 
 TEST_P(ReferencePixels, AttributesAreDividedByTheInterpolatedOneOverW) {

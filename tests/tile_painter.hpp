@@ -31,7 +31,8 @@ class TilePainter {
         m_seen.pass_less = 1;
         m_seen.pass_equal = m_seen.pass_greater = usual ? 0 : 1;
         m_seen.depth_write = usual ? 1 : 0;
-        m_kernels.rasterize({&m_seen, 1, m_depth.data(), m_id.data(), m_far.data()});
+        std::uint64_t drawn = 0;
+        m_kernels.rasterize({&m_seen, 1, m_depth.data(), m_id.data(), m_far.data(), &drawn});
         return true;
     }
 

@@ -39,4 +39,12 @@ struct SetupTriangle {
     std::uint8_t clipped;  ///< 1: x, y are not those of `vertex`
 };
 
+/// Visible fragments of a tile, triangle after triangle.
+struct TileFragments {
+    std::span<const SetupTriangle* const> triangles;
+    const std::uint16_t* size;    ///< fragments of each triangle; many have none
+    const std::uint16_t* pixels;  ///< tile indices, no two alike; readable 16 past the last
+    int count;
+};
+
 }  // namespace burnish

@@ -78,7 +78,7 @@ TileImage::TileImage(PixelFormat format)
     : m_format(format),
       m_pixel_size(pixel_size(format)),
       m_pixels(kTilePixels * m_pixel_size),
-      m_background(kBlockPixels * m_pixel_size) {}
+      m_background(kTileSize * m_pixel_size) {}
 
 void TileImage::set_background(const glm::vec4& color) {
     const EncodedPixel pixel = encode_pixel(color, m_format);
@@ -87,9 +87,10 @@ void TileImage::set_background(const glm::vec4& color) {
     }
 }
 
-void TileImage::clear_block(int block) {
-    std::copy(m_background.begin(), m_background.end(),
-              m_pixels.begin() + block * static_cast<std::ptrdiff_t>(m_background.size()));
+void TileImage::clear() {
+    for (auto to = m_pixels.begin(); to != m_pixels.end();) {
+        to = std::copy(m_background.begin(), m_background.end(), to);
+    }
 }
 
 void TileImage::load(const Framebuffer& frame, std::int32_t left, std::int32_t top) {
@@ -108,7 +109,6 @@ void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top)
 }
 
 void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
-    static_assert(kBlockPixels == kTileSize, "the background of a block is that of a row");
     const std::int32_t rows = std::min(kTileSize, frame.height() - top);
     const auto columns = static_cast<std::size_t>(std::min(kTileSize, frame.width() - left));
     for (std::int32_t y = top; y < top + rows; ++y) {

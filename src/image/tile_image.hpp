@@ -14,8 +14,8 @@ class TileImage {
   public:
     explicit TileImage(PixelFormat format);
 
-    /// Sets the pixels of an 8x8 block, 0 .. 63, to the background.
-    void clear_block(int block);
+    /// Sets all pixels to the background.
+    void clear();
     void set_background(const glm::vec4& color);
     /// Takes the tile at (left, top) from the frame, and writes it there; cut to the frame.
     void load(const Framebuffer& frame, std::int32_t left, std::int32_t top);
@@ -30,7 +30,7 @@ class TileImage {
     PixelFormat m_format;
     std::size_t m_pixel_size;
     AlignedVector<std::byte> m_pixels;
-    AlignedVector<std::byte> m_background;  ///< one block, or one row of the tile
+    AlignedVector<std::byte> m_background;  ///< one row of the tile
 };
 
 }  // namespace burnish

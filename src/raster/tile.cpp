@@ -1,35 +1,29 @@
 #include "raster/tile.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace burnish {
 
 namespace {
 
-constexpr int kBatch = 32;  // triangles per call of the kernel: 4 KB
-constexpr int kBlocksPerRow = kTileSize / kBlockSize;
-
-/// Pixels of a block that lie inside the frame.
-std::uint64_t frame_mask(std::int32_t left, std::int32_t top, FrameSize frame) {
-    const std::int32_t columns = std::clamp(frame.width - left, 0, kBlockSize);
-    const std::int32_t rows = std::clamp(frame.height - top, 0, kBlockSize);
-    if (columns == kBlockSize && rows == kBlockSize) return ~std::uint64_t{0};
-    const std::uint64_t row = (std::uint64_t{1} << columns) - 1;
-    std::uint64_t mask = 0;
-    for (std::int32_t y = 0; y < rows; ++y) mask |= row << (kBlockSize * y);
-    return mask;
-}
+constexpr int kBatch = 32;       // triangles per call of the kernel: 4 KB
+constexpr int kPixelSlack = 16;  // kernels write and read past the last pixel
 
 }  // namespace
 
 TileVisibility::TileVisibility()
-    : m_depth(kTilePixels), m_block_far(kTileBlocks), m_id(kTilePixels) {}
+    : m_depth(kTilePixels),
+      m_block_far(kTileBlocks),
+      m_id(kTilePixels),
+      m_pixels(kTilePixels + kPixelSlack) {}
 
 void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth) {
     m_tile_x = x;
     m_tile_y = y;
     m_frame = frame;
     m_triangles.clear();
+    m_drawn.clear();
     std::fill(m_id.begin(), m_id.end(), kNoTriangle);
     if (depth == nullptr) {
         std::fill(m_depth.begin(), m_depth.end(), 1.0F);
@@ -46,7 +40,13 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
     TileTriangle batch[kBatch];
-    RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data()};
+    std::uint64_t drawn[kBatch];
+    RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data(), drawn};
+    const auto flush = [&] {
+        kernels.rasterize(ctx);
+        m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
+        ctx.count = 0;
+    };
     const std::span<const std::uint32_t> entries = chunk.tile(m_tile_x, m_tile_y);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         constexpr std::size_t kAhead = 4;  // a mesh's triangles lie far apart along a tile
@@ -66,20 +66,32 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
         seen.pass_greater = rule.pass_greater;
         seen.depth_write = rule.write;
         m_triangles.push_back(&triangle);
-        if (++ctx.count == kBatch) {
-            kernels.rasterize(ctx);
-            ctx.count = 0;
-        }
+        if (++ctx.count == kBatch) flush();
     }
-    if (ctx.count > 0) kernels.rasterize(ctx);
+    if (ctx.count > 0) flush();
 }
 
-void TileVisibility::match_block(int block, const KernelTable& kernels, BlockTriangles& out) const {
-    const std::int32_t x = left() + block % kBlocksPerRow * kBlockSize;
-    const std::int32_t y = top() + block / kBlocksPerRow * kBlockSize;
-    const int first = block * kBlockPixels;
-    kernels.match(
-        {m_id.data() + first, frame_mask(x, y, m_frame), static_cast<std::uint16_t>(first), &out});
+/// Blocks reach beyond a frame that ends inside them; what was drawn there is not shown.
+void TileVisibility::hide_outside() {
+    const std::int32_t columns = std::min(m_frame.width - left(), kTileSize);
+    const std::int32_t rows = std::min(m_frame.height - top(), kTileSize);
+    constexpr std::int32_t kBlocks = kTileSize / kBlockSize;
+    for (std::int32_t y = 0; y < kTileSize; ++y) {
+        for (std::int32_t x = y < rows ? columns : 0; x < kTileSize; ++x) {
+            const std::int32_t block = y / kBlockSize * kBlocks + x / kBlockSize;
+            m_id[static_cast<std::size_t>(block * kBlockPixels + y % kBlockSize * kBlockSize +
+                                          x % kBlockSize)] = kNoTriangle;
+        }
+    }
+}
+
+TileFragments TileVisibility::collect(const KernelTable& kernels) {
+    hide_outside();
+    m_sizes.resize(m_triangles.size());
+    kernels.collect({m_id.data(), m_drawn.data(), static_cast<int>(m_triangles.size()),
+                     m_pixels.data(), m_sizes.data()});
+    const int count = std::accumulate(m_sizes.begin(), m_sizes.end(), 0);
+    return {m_triangles, m_sizes.data(), m_pixels.data(), count};
 }
 
 }  // namespace burnish

@@ -27,21 +27,23 @@ class TileVisibility {
     /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
     void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);
 
-    /// Triangles drawn so far; the visibility buffer holds indices into these.
-    [[nodiscard]] std::span<const SetupTriangle* const> triangles() const { return m_triangles; }
+    /// What is visible of all that was drawn, inside the frame. Valid until the next `begin`.
+    TileFragments collect(const KernelTable& kernels);
+
     [[nodiscard]] const float* depth() const { return m_depth.data(); }
     [[nodiscard]] std::int32_t left() const { return m_tile_x * kTileSize; }
     [[nodiscard]] std::int32_t top() const { return m_tile_y * kTileSize; }
 
-    /// Distinct triangles of a block, pixels outside the frame left out.
-    void match_block(int block, const KernelTable& kernels, BlockTriangles& out) const;
-
   private:
+    void hide_outside();
+
     std::int32_t m_tile_x = 0, m_tile_y = 0;
     FrameSize m_frame{};
     AlignedVector<float> m_depth, m_block_far;
     AlignedVector<std::uint32_t> m_id;
-    std::vector<const SetupTriangle*> m_triangles;
+    std::vector<const SetupTriangle*> m_triangles;  ///< the visibility buffer holds indices
+    std::vector<std::uint64_t> m_drawn;             ///< per triangle, as RasterizeCtx has it
+    std::vector<std::uint16_t> m_sizes, m_pixels;   ///< of TileFragments
 };
 
 }  // namespace burnish
