@@ -234,21 +234,25 @@ constexpr BitPositions make_bit_positions() {
 constexpr BitPositions kBitPositions = make_bit_positions();
 
 /// Appends first_pixel plus the positions of the set bits, row by row; writes up to 8 values past
-/// the last. The sums do not carry from one 16-bit part of a word to the next.
-std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel, std::uint16_t* out) {
+/// the last. Four rows at a time, whatever is in them: to branch on each costs more. The sums do not
+/// carry from one 16-bit part of a word to the next.
+inline std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel,
+                                    std::uint16_t* out) {
     constexpr std::uint64_t kOnes = 0x0001000100010001U;
-    const int empty_rows = mask != 0 ? __builtin_ctzll(mask) / kBlockSize : 0;
-    std::uint64_t base =
-        (first_pixel + static_cast<std::uint64_t>(empty_rows * kBlockSize)) * kOnes;
-    for (mask >>= empty_rows * kBlockSize; mask != 0; mask >>= 8, base += 8 * kOnes) {
-        const std::uint64_t bits = mask & 255;
-        std::uint64_t words[2];
-        __builtin_memcpy(words, kBitPositions.row[bits], sizeof words);
-        words[0] += base;
-        words[1] += base;
-        __builtin_memcpy(out, words, sizeof words);
-        out += __builtin_popcountll(bits);
-    }
+    const auto append_rows = [&](std::uint64_t rows, std::uint64_t base) {
+#pragma GCC unroll 4
+        for (int row = 0; row < 4; ++row, rows >>= 8, base += 8 * kOnes) {
+            std::uint64_t words[2];
+            __builtin_memcpy(words, kBitPositions.row[rows & 255], sizeof words);
+            words[0] += base;
+            words[1] += base;
+            __builtin_memcpy(out, words, sizeof words);
+            out += __builtin_popcountll(rows & 255);
+        }
+    };
+    const std::uint64_t base = first_pixel * kOnes;
+    if ((mask & 0xffffffffU) != 0) append_rows(mask, base);
+    if (mask >> 32 != 0) append_rows(mask >> 32, base + 32 * kOnes);
     return out;
 }
 
