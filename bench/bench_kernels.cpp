@@ -364,6 +364,19 @@ void add_portions(const std::string& name, PacketStage<PortionCtx> stage,
                 portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::none), both);
     add_portion("sum", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum), both);
     add_portion("mux", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::mux), both);
+    // The two stages of the anisotropic lobe.
+    PortionCtx dots = portion(ProductKind::dot, ProductKind::dot, ThirdKind::none);
+    dots.a.mapping = dots.b.mapping = dots.c.mapping = dots.d.mapping = 2;
+    dots.d = dots.b;
+    dots.components = 1;
+    dots.scale = OutputScale::four;
+    add_portion("two_dots_of_expanded", dots, {.planes = {14, 17}});
+    PortionCtx squares = portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum);
+    squares.b = squares.a;
+    squares.d = squares.c;
+    squares.components = 1;
+    squares.ab_out[0] = kTrash;
+    add_portion("sum_of_squares", squares, {.planes = {17}});
 }
 
 void add_final(const std::string& name, PacketStage<FinalCtx> stage, const PacketMemory& packet) {

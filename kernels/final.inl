@@ -3,11 +3,13 @@ struct FinalNineBit {
     static constexpr std::int16_t kOne = 255;
     static I16 identity(I16 e) { return max(e, I16(0)); }
     static I16 color_sum(I16 a, I16 b) { return identity(a) + identity(b); }
-    static I16 product(I16 a, I16 b) { return product_255(a, b); }
+    static I16 product(I16 a, I16 b) { return product_255(a << 6, b << 1); }
 
     /// round((a b + (255 - a) c) / 255) + d = c + round(a (b - c) / 255) + d, since c is an
     /// integer.
-    static I16 lerp(I16 a, I16 b, I16 c, I16 d) { return c + product_255(a, b - c) + d; }
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
+        return c + product_255(a << 6, (b - c) << 1) + d;
+    }
 
     /// The same where the colour sum makes |b - c| as large as 510: in 32 bits, with a division
     /// that is exact to 2^-24, and no quotient comes nearer than 1/255 to an integer unless it is
