@@ -115,6 +115,9 @@ inline I16 mul_round(I16 a, I16 b) {
 inline I16 mul_high(I16 a, I16 b) {
     return _mm512_mulhi_epi16(a, b);
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    return _mm512_mulhi_epu16(a, b);
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return _mm512_madd_epi16(a, b);
 }
@@ -191,6 +194,9 @@ inline I16 mul_round(I16 a, I16 b) {
 inline I16 mul_high(I16 a, I16 b) {
     return _mm256_mulhi_epi16(a, b);
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    return _mm256_mulhi_epu16(a, b);
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return _mm256_madd_epi16(a, b);
 }
@@ -262,6 +268,9 @@ inline I16 mul_round(I16 a, I16 b) {
 }
 inline I16 mul_high(I16 a, I16 b) {
     return _mm_mulhi_epi16(a, b);
+}
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    return _mm_mulhi_epu16(a, b);
 }
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return _mm_madd_epi16(a, b);
@@ -337,6 +346,12 @@ inline I16 mul_high(I16 a, I16 b) {
     const int32x4_t hi = vmull_high_s16(a, b);
     return vuzp2q_s16(vreinterpretq_s16_s32(lo), vreinterpretq_s16_s32(hi));
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    const uint16x8_t u = vreinterpretq_u16_s16(a), v = vreinterpretq_u16_s16(b);
+    const uint32x4_t lo = vmull_u16(vget_low_u16(u), vget_low_u16(v));
+    const uint32x4_t hi = vmull_high_u16(u, v);
+    return vreinterpretq_s16_u16(vuzp2q_u16(vreinterpretq_u16_u32(lo), vreinterpretq_u16_u32(hi)));
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return vpaddq_s32(vmull_s16(vget_low_s16(a), vget_low_s16(b)), vmull_high_s16(a, b));
 }
@@ -404,6 +419,13 @@ inline I16 as_signed(U16 v) {
 }
 inline U16 as_unsigned(I16 v) {
     return ::xsimd::bitwise_cast<U16>(v);
+}
+/// As unsigned numbers, saturating at 65535 and 0.
+inline I16 add_saturating_unsigned(I16 a, I16 b) {
+    return as_signed(::xsimd::sadd(as_unsigned(a), as_unsigned(b)));
+}
+inline I16 subtract_saturating_unsigned(I16 a, I16 b) {
+    return as_signed(::xsimd::ssub(as_unsigned(a), as_unsigned(b)));
 }
 /// Zeros come in from the left.
 inline I16 shift_right_logical(I16 v, int n) {
