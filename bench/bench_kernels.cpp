@@ -258,10 +258,10 @@ constexpr int kTexture = 256;                         // texels, both ways
 constexpr std::int32_t kPitch = 4 * (kTexture + 16);  // bytes
 
 void add_texels() {
-    static std::vector<std::int8_t> texels;
+    static std::vector<std::uint8_t> texels;
     Random random(4);
     texels.resize(static_cast<std::size_t>(kPitch * (kTexture + 1)));
-    for (std::int8_t& t : texels) t = static_cast<std::int8_t>(random.between(-128, 127));
+    for (std::uint8_t& t : texels) t = static_cast<std::uint8_t>(random.below(256));
     PacketMemory packet;
     // A quarter turn of the texture at one texel per pixel, as four blocks see it.
     for (int i = 0; i < kPacketSize; ++i) {

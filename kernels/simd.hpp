@@ -124,6 +124,10 @@ inline I32 mul_add_pairs(I16 a, I16 b) {
 inline I16 mul_add_bytes(I16 u8, I16 s8) {
     return _mm512_maddubs_epi16(u8, s8);
 }
+/// (a + b + 1) >> 1 of unsigned numbers.
+inline I16 average(I16 a, I16 b) {
+    return _mm512_avg_epu16(a, b);
+}
 inline I16 zip_lo16(I16 a, I16 b) {
     return _mm512_unpacklo_epi16(a, b);
 }
@@ -157,7 +161,7 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
 }
 /// 64-bit loads of texel pairs: lane k gets the pairs at offset[8 k] (low half) and offset[8 k +
 /// 1].
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
         const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
@@ -203,6 +207,9 @@ inline I32 mul_add_pairs(I16 a, I16 b) {
 inline I16 mul_add_bytes(I16 u8, I16 s8) {
     return _mm256_maddubs_epi16(u8, s8);
 }
+inline I16 average(I16 a, I16 b) {
+    return _mm256_avg_epu16(a, b);
+}
 inline I16 zip_lo16(I16 a, I16 b) {
     return _mm256_unpacklo_epi16(a, b);
 }
@@ -234,7 +241,7 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
     const __m256i pairs = _mm256_permute4x64_epi64(_mm256_packs_epi32(v, v), 0x08);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(pairs));
 }
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
         const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
@@ -278,6 +285,9 @@ inline I32 mul_add_pairs(I16 a, I16 b) {
 inline I16 mul_add_bytes(I16 u8, I16 s8) {
     return _mm_maddubs_epi16(u8, s8);
 }
+inline I16 average(I16 a, I16 b) {
+    return _mm_avg_epu16(a, b);
+}
 inline I16 zip_lo16(I16 a, I16 b) {
     return _mm_unpacklo_epi16(a, b);
 }
@@ -308,7 +318,7 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(v, v));
 }
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
         const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
@@ -364,6 +374,9 @@ inline I16 mul_add_bytes(I16 u8, I16 s8) {
     const int16x8_t hi = vmulq_s16(vreinterpretq_s16_u16(vmovl_high_u8(u)), vmovl_high_s8(s));
     return vqaddq_s16(vuzp1q_s16(lo, hi), vuzp2q_s16(lo, hi));
 }
+inline I16 average(I16 a, I16 b) {
+    return vreinterpretq_s16_u16(vrhaddq_u16(vreinterpretq_u16_s16(a), vreinterpretq_u16_s16(b)));
+}
 inline I16 zip_lo16(I16 a, I16 b) {
     return vzip1q_s16(a, b);
 }
@@ -394,8 +407,8 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     vst1_s16(p, vmovn_s32(v));
 }
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
-    return vreinterpretq_s16_s8(vcombine_s8(vld1_s8(base + offset[0]), vld1_s8(base + offset[1])));
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
+    return vreinterpretq_s16_u8(vcombine_u8(vld1_u8(base + offset[0]), vld1_u8(base + offset[1])));
 }
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));
