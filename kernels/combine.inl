@@ -1,10 +1,17 @@
-/// round(a * b / 255), exactly, for |a|, |b| <= 256; a test tries all 513^2.
-/// With p = a b, h = (p + 128) >> 8 and l = (p + 128) & 255 the quotient is h + ((h + l) >> 8), and
-/// one less inside the bracket for negative p.
-I16 product_255(I16 a, I16 b) {
-    const I16 h = mul_round(a << 6, b << 1);
-    const I16 l = (a * b + I16(128)) & I16(255);
-    return h + ((h + ((a ^ b) >> 15) + l) >> 8);
+/// round(a b / 255), exactly, for |a|, |b| <= 256, from 64 a and 2 b; a test tries all 513^2.
+/// With p = a b, h = (p + 128) >> 8 and d = p - 256 h, a signed byte, the quotient is
+/// h + round((h + d) / 255); 129 / 2^15 rounds like 1 / 255 does as far as h + d goes.
+I16 product_255(I16 a64, I16 b2) {
+    const I16 h = mul_round(a64, b2);
+    const I16 d = a64 * (b2 + b2) >> 8;
+    return h + mul_round(h + d, I16(129));
+}
+
+/// The same for a square or for two even numbers, from 72 a and 114 b: 513 * 72 * 114 / 2^30 is
+/// 1/255 but for 3e-6, and the first rounding never leads the second one astray. No proof but that
+/// a test tries all; of all scales only a handful pass.
+I16 short_product_255(I16 a72, I16 b114) {
+    return mul_round(mul_round(a72, b114), I16(513));
 }
 
 /// The nine-bit model: one 16-bit lane holds every intermediate value (|x| <= 4 * 1542).
@@ -12,9 +19,9 @@ struct NineBit {
     using Value = I16;
     static constexpr std::int16_t kOne = 255, kHalf = 128, kHighest = 255, kLowest = -255;
 
-    /// Any mapping of a register value e: max(e, low) * factor + offset.
+    /// Any mapping of a register value e, times `scale`: max(e, low) * factor + offset.
     struct Map {
-        explicit Map(std::uint8_t mapping) {
+        Map(std::uint8_t mapping, std::int16_t scale) {
             static constexpr std::int16_t kNumbers[8][3] = {
                 {0, 1, 0},           // unsigned_identity
                 {0, -1, kOne},       // unsigned_invert
@@ -26,12 +33,13 @@ struct NineBit {
                 {-32768, -1, 0},     // signed_negate
             };
             low = I16(kNumbers[mapping][0]);
-            factor = I16(kNumbers[mapping][1]);
-            offset = I16(kNumbers[mapping][2]);
+            factor = I16(static_cast<std::int16_t>(scale * kNumbers[mapping][1]));
+            offset = I16(static_cast<std::int16_t>(scale * kNumbers[mapping][2]));
         }
         I16 operator()(I16 e) const { return max(e, low) * factor + offset; }
         I16 low, factor, offset;
     };
+    static constexpr std::int16_t kScaleA = 64, kScaleB = 2;  // of the operands of product()
     static Value product(I16 a, I16 b) { return product_255(a, b); }
     static Value add(Value a, Value b) { return a + b; }
     static Value mux(I16 selector, Value ab, Value cd) {
@@ -54,6 +62,12 @@ struct NineBit {
     };
 };
 
+/// The same numbers, where the short product is exact.
+struct NineBitShort : NineBit {
+    static constexpr std::int16_t kScaleA = 72, kScaleB = 114;
+    static Value product(I16 a, I16 b) { return short_product_255(a, b); }
+};
+
 /// The wide model: 16-bit operands, 32-bit products and sums, so that nothing saturates early.
 struct Wide {
     struct Value {
@@ -64,7 +78,7 @@ struct Wide {
     /// Any mapping of a register value e: clamp(e, low, high) + offset, then doubled and negated
     /// where the masks say so. Saturating, since 2 (e - 1/2) and -e can leave the 16 bits.
     struct Map {
-        explicit Map(std::uint8_t mapping) {
+        Map(std::uint8_t mapping, std::int16_t /*scale*/) {
             constexpr std::int16_t kMax = 32767, kMin = -32768;
             static constexpr std::int16_t kNumbers[8][5] = {
                 {0, kMax, 0, 0, 0},         // unsigned_identity
@@ -89,6 +103,7 @@ struct Wide {
         }
         I16 low, high, offset, twice, negate;
     };
+    static constexpr std::int16_t kScaleA = 1, kScaleB = 1;
     static Value product(I16 a, I16 b) {
         using ::xsimd::bitwise_cast;
         const I16 low = a * b, high = mul_high(a, b);
@@ -125,7 +140,8 @@ struct Wide {
 /// An operand's planes, copied out of the argument: vector stores might alias it otherwise.
 template <class Model>
 struct Source {
-    Source(const Packet& packet, const Operand& operand) : map(operand.mapping) {
+    Source(const Packet& packet, const Operand& operand, std::int16_t scale)
+        : map(operand.mapping, scale) {
         for (int c = 0; c < 3; ++c) plane[c] = packet.planes + operand.plane[c] * kPacketSize;
     }
     I16 operator()(int component, int i) const { return map(load(plane[component] + i)); }
@@ -144,7 +160,8 @@ template <class Model>
 
 template <class Model, ProductKind Ab, ProductKind Cd, ThirdKind Third>
 void portion(Packet& packet, const PortionCtx& ctx) {
-    const Source<Model> a(packet, ctx.a), b(packet, ctx.b), c(packet, ctx.c), d(packet, ctx.d);
+    const Source<Model> a(packet, ctx.a, Model::kScaleA), b(packet, ctx.b, Model::kScaleB),
+        c(packet, ctx.c, Model::kScaleA), d(packet, ctx.d, Model::kScaleB);
     const typename Model::Output output(ctx);
     const int components = ctx.components, n = group_count(packet);
     const std::int16_t* const selector = packet.planes + ctx.mux_plane * kPacketSize;
@@ -199,8 +216,21 @@ void portion(Packet& packet, const PortionCtx& ctx) {
     portion<Model, ProductKind::multiply>(packet, ctx);
 }
 
+/// Squares, and pairs of `expand` and `expand_negate`, whose results are even.
+bool has_short_product(const Operand& a, const Operand& b) {
+    const auto is_even = [](std::uint8_t mapping) { return mapping == 2 || mapping == 3; };
+    if (is_even(a.mapping) && is_even(b.mapping)) return true;
+    return a.mapping == b.mapping && a.plane[0] == b.plane[0] && a.plane[1] == b.plane[1] &&
+           a.plane[2] == b.plane[2];
+}
+
 void portion_nine_bit(Packet& packet, const PortionCtx& ctx) noexcept {
-    portion<NineBit>(packet, ctx);
+    if (has_short_product(ctx.a, ctx.b) &&
+        (ctx.cd == ProductKind::none || has_short_product(ctx.c, ctx.d))) {
+        portion<NineBitShort>(packet, ctx);
+    } else {
+        portion<NineBit>(packet, ctx);
+    }
 }
 void portion_wide(Packet& packet, const PortionCtx& ctx) noexcept {
     portion<Wide>(packet, ctx);

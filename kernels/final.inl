@@ -1,33 +1,62 @@
-/// Arithmetic of the final combiner, nine-bit model.
+/// round(p / 255), exactly, from p + 128 with p in 0 .. 65407. With p = 255 q + r, |r| <= 127, the
+/// numerator is 65536 q + 257 (r + 128) - q, and what follows 65536 q lies within 1 .. 65535.
+I16 quotient_255(I16 p128) {
+    return mul_high_unsigned(p128, I16(257));
+}
+
+/// Arithmetic of the final combiner, nine-bit model: all numbers are 0 .. 255, products 0 .. 65025.
 struct FinalNineBit {
     static constexpr std::int16_t kOne = 255;
-    static I16 identity(I16 e) { return max(e, I16(0)); }
-    static I16 color_sum(I16 a, I16 b) { return identity(a) + identity(b); }
-    static I16 product(I16 a, I16 b) { return product_255(a, b); }
 
-    /// round((a b + (255 - a) c) / 255) + d = c + round(a (b - c) / 255) + d, since c is an
-    /// integer.
-    static I16 lerp(I16 a, I16 b, I16 c, I16 d) { return c + product_255(a, b - c) + d; }
+    /// Clamps to 0, then x or 1 - x.
+    struct Map {
+        Map(bool inverted, bool /*is_sum*/) : turn(inverted ? kOne : 0) {}
+        I16 operator()(I16 e) const { return max(e, I16(0)) ^ turn; }
+        I16 turn;
+    };
+    static I16 color_sum(I16 a, I16 b) { return max(a, I16(0)) + max(b, I16(0)); }
+    static I16 product(I16 a, I16 b) { return quotient_255(a * b + I16(128)); }
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
+        return quotient_255(a * b + ((a ^ I16(kOne)) * c + I16(128))) + d;
+    }
+};
 
-    /// The same where the colour sum makes |b - c| as large as 510: in 32 bits, with a division
-    /// that is exact to 2^-24, and no quotient comes nearer than 1/255 to an integer unless it is
-    /// one.
-    static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) {
-        constexpr int kLift = 512;  // keeps what is truncated positive
-        const I16 difference = b - c;
-        const I16 low = a * difference, high = mul_high(a, difference);
-        const auto quotient = [](I16 pair) {
-            const I32 p = ::xsimd::bitwise_cast<I32>(pair) + I32(127 + 255 * kLift);
-            return truncate(divide(to_float(p), F32(255.0F))) - I32(kLift);
-        };
-        return c + narrow(quotient(zip_lo16(low, high)), quotient(zip_hi16(low, high))) + d;
+/// The same with the colour sum, up to 510, as B, C or D.
+struct FinalNineBitSum : FinalNineBit {
+    struct Map {
+        Map(bool inverted, bool /*is_sum*/)
+            : turn(inverted ? -1 : 0), drop(inverted ? std::int16_t{~kOne} : std::int16_t{0}) {}
+        /// Inverted, 65535 - e minus 65280, saturated at 0.
+        I16 operator()(I16 e) const {
+            return subtract_saturating_unsigned(max(e, I16(0)) ^ turn, drop);
+        }
+        I16 turn, drop;
+    };
+    /// Up to 1 and beyond 1 apart, so that products fit; a result above 255 may saturate.
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
+        const I16 one(kOne), rest = a ^ one, low_b = min(b, one), low_c = min(c, one);
+        const I16 low = a * low_b + (rest * low_c + I16(128));
+        const I16 high = a * (b - low_b) + rest * (c - low_c);
+        return quotient_255(add_saturating_unsigned(low, high)) + d;
     }
 };
 
 struct FinalWide {
     static constexpr std::int16_t kOne = 16384;
-    static I16 identity(I16 e) { return min(max(e, I16(0)), I16(kOne)); }
-    static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(identity(a), identity(b)); }
+
+    /// Clamps to 0 and, but for the colour sum as it is, to 1; then x or 1 - x.
+    struct Map {
+        Map(bool inverted, bool is_sum)
+            : turn(inverted ? -1 : 0),
+              offset(inverted ? kOne + 1 : 0),  // ~x + 1 + one = one - x
+              high(is_sum && !inverted ? std::int16_t{32767} : kOne) {}
+        I16 operator()(I16 e) const { return (min(max(e, I16(0)), high) ^ turn) + offset; }
+        I16 turn, offset, high;
+    };
+    static I16 color_sum(I16 a, I16 b) {
+        const I16 zero(0), one(kOne);
+        return ::xsimd::sadd(min(max(a, zero), one), min(max(b, zero), one));
+    }
     static I16 product(I16 a, I16 b) {
         const Wide::Value v = Wide::product(a, b);
         return narrow(v.lo, v.hi);
@@ -39,94 +68,68 @@ struct FinalWide {
         const I32 hi = mul_add_pairs(zip_hi16(a, rest), zip_hi16(b, c)) + half;
         return ::xsimd::sadd(narrow(lo >> 14, hi >> 14), d);
     }
-    static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) { return lerp(a, b, c, d); }
 };
 
-/// The pseudo registers of one packet; a plane each for r, g, b.
+/// One component of the pseudo registers.
 struct PseudoRegisters {
-    alignas(64) std::int16_t sum[3][kPacketSize], product[3][kPacketSize];
+    alignas(64) std::int16_t sum[kPacketSize], product[kPacketSize];
 };
 
-/// An input with its mapping: clamp to 0 and, for an inverted input, to 1; then x or 1 - x.
+/// One component of an input, with its mapping.
 template <class Model>
 struct FinalSource {
-    FinalSource(const Packet& packet, const Operand& operand, const PseudoRegisters& pseudo)
-        : is_sum(operand.plane[0] == FinalCtx::kColorSum), turn(0), offset(0), high(Model::kOne) {
-        const bool is_product = operand.plane[0] == FinalCtx::kFinalProduct;
-        for (int c = 0; c < 3; ++c) {
-            plane[c] = is_sum       ? pseudo.sum[c]
-                       : is_product ? pseudo.product[c]
-                                    : packet.planes + operand.plane[c] * kPacketSize;
-        }
-        if (operand.mapping == 1) {
-            turn = I16(-1);
-            offset = I16(Model::kOne + 1);  // ~x + 1 + one = one - x
-        } else if (is_sum) {
-            high = I16(32767);  // may exceed 1
-        }
+    FinalSource(const Packet& packet, const Operand& operand, int component,
+                const PseudoRegisters& pseudo)
+        : map(operand.mapping == 1, operand.plane[0] == FinalCtx::kColorSum) {
+        plane = operand.plane[0] == FinalCtx::kColorSum ? pseudo.sum
+                : operand.plane[0] == FinalCtx::kFinalProduct
+                    ? pseudo.product
+                    : packet.planes + operand.plane[component] * kPacketSize;
     }
-    I16 operator()(int component, int i) const {
-        return (min(max(load(plane[component] + i), I16(0)), high) ^ turn) + offset;
-    }
-    const std::int16_t* plane[3];
-    bool is_sum;
-    I16 turn, offset, high;
+    I16 operator()(int i) const { return map(load(plane + i)); }
+    const std::int16_t* plane;
+    typename Model::Map map;
 };
-
-template <class Model, bool UsesSum>
-void blend(Packet& packet, const FinalCtx& ctx, const PseudoRegisters& pseudo) {
-    using Source = FinalSource<Model>;
-    const Source a(packet, ctx.a, pseudo), b(packet, ctx.b, pseudo), c(packet, ctx.c, pseudo),
-        d(packet, ctx.d, pseudo);
-    const I16 one(Model::kOne);
-    const int n = group_count(packet);
-    for (int k = 0; k < 3; ++k) {
-        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
-        for (int i = 0; i < n; i += kLanes) {
-            const I16 va = a(k, i), vb = b(k, i), vc = c(k, i), vd = d(k, i);
-            if constexpr (UsesSum) {
-                store(out + i, min(Model::lerp_with_sum(va, vb, vc, vd), one));
-            } else {
-                store(out + i, min(Model::lerp(va, vb, vc, vd), one));
-            }
-        }
-    }
-}
 
 template <class Model>
 void final_combiner(Packet& packet, const FinalCtx& ctx) {
-    PseudoRegisters pseudo{};
+    using Source = FinalSource<Model>;
+    PseudoRegisters pseudo;
+    const I16 one(Model::kOne);
     const int n = group_count(packet);
-    if (ctx.uses_color_sum != 0) {
-        const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
-        for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k) {
+        if (ctx.uses_color_sum != 0) {
+            const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
             const std::int16_t* const spare0 = packet.planes + ctx.spare0[k] * kPacketSize;
             const std::int16_t* const secondary = packet.planes + ctx.secondary[k] * kPacketSize;
             for (int i = 0; i < n; i += kLanes) {
-                store(pseudo.sum[k] + i,
+                store(pseudo.sum + i,
                       min(Model::color_sum(load(spare0 + i), load(secondary + i)), limit));
             }
         }
-    }
-    if (ctx.uses_final_product != 0) {
-        const FinalSource<Model> e(packet, ctx.e, pseudo), f(packet, ctx.f, pseudo);
-        for (int k = 0; k < 3; ++k) {
+        if (ctx.uses_final_product != 0) {
+            const Source e(packet, ctx.e, k, pseudo), f(packet, ctx.f, k, pseudo);
             for (int i = 0; i < n; i += kLanes) {
-                store(pseudo.product[k] + i, Model::product(e(k, i), f(k, i)));
+                store(pseudo.product + i, Model::product(e(i), f(i)));
             }
         }
+        const Source a(packet, ctx.a, k, pseudo), b(packet, ctx.b, k, pseudo),
+            c(packet, ctx.c, k, pseudo), d(packet, ctx.d, k, pseudo);
+        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
+        for (int i = 0; i < n; i += kLanes) {
+            store(out + i, min(Model::lerp(a(i), b(i), c(i), d(i)), one));
+        }
     }
-    if (ctx.uses_color_sum != 0) {
-        blend<Model, true>(packet, ctx, pseudo);
-    } else {
-        blend<Model, false>(packet, ctx, pseudo);
-    }
-    const FinalSource<Model> g(packet, ctx.g, pseudo);
+    const Source g(packet, ctx.g, 0, pseudo);
     std::int16_t* const alpha = packet.planes + ctx.out[3] * kPacketSize;
-    for (int i = 0; i < n; i += kLanes) store(alpha + i, g(0, i));
+    for (int i = 0; i < n; i += kLanes) store(alpha + i, g(i));
 }
 void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
-    final_combiner<FinalNineBit>(packet, ctx);
+    if (ctx.uses_color_sum != 0) {
+        final_combiner<FinalNineBitSum>(packet, ctx);
+    } else {
+        final_combiner<FinalNineBit>(packet, ctx);
+    }
 }
 void final_wide(Packet& packet, const FinalCtx& ctx) noexcept {
     final_combiner<FinalWide>(packet, ctx);

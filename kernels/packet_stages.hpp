@@ -71,7 +71,7 @@ struct AddressCtx {
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
 /// 4 bytes apart, the rows one pitch. Texture k gives four planes r, g, b, a from plane[k] on.
-/// A texel is four signed bytes, value - 128; t below is the value 0 .. 255.
+/// A texel t is four bytes r, g, b, a.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
 ///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
 /// wide: h = (256 - wx) * t_left + wx * t_right,
@@ -79,7 +79,7 @@ struct AddressCtx {
 ///   code = (x + 2) >> 2.
 struct FetchCtx {
     static constexpr int kMaxTextures = 4;
-    const std::int8_t* texels[kMaxTextures];
+    const std::uint8_t* texels[kMaxTextures];
     int plane[kMaxTextures];
     int count;           ///< 1 .. kMaxTextures
     std::int32_t pitch;  ///< bytes
