@@ -54,11 +54,11 @@ struct NineBit {
                                                     : 0),
               right(ctx.scale == OutputScale::half ? 1 : 0) {}
         I16 operator()(Value x) const {
-            return min(
-                max(((x + I16(static_cast<std::int16_t>(bias))) << left) >> right, I16(kLowest)),
-                I16(kHighest));
+            if (!plain) x = ((x + I16(static_cast<std::int16_t>(bias))) << left) >> right;
+            return min(max(x, I16(kLowest)), I16(kHighest));
         }
         int bias, left, right;
+        bool plain = bias == 0 && left == 0;  // then right is 0, too
     };
 };
 
@@ -127,12 +127,16 @@ struct Wide {
               right(ctx.scale == OutputScale::half ? 1 : 0),
               limit(ctx.wide != 0 ? 32767 : kOne) {}
         I16 operator()(Value x) const {
-            const I32 b(bias);
-            const I16 v = narrow(((x.lo + b) << left) >> right, ((x.hi + b) << left) >> right);
+            if (!plain) {
+                const I32 b(bias);
+                x = {((x.lo + b) << left) >> right, ((x.hi + b) << left) >> right};
+            }
+            const I16 v = narrow(x.lo, x.hi);
             const I16 lowest(static_cast<std::int16_t>(limit == 32767 ? -32768 : -limit));
             return min(max(v, lowest), I16(limit));
         }
         int bias, left, right;
+        bool plain = bias == 0 && left == 0;
         std::int16_t limit;
     };
 };
