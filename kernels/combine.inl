@@ -54,11 +54,11 @@ struct NineBit {
                                                     : 0),
               right(ctx.scale == OutputScale::half ? 1 : 0) {}
         I16 operator()(Value x) const {
-            return min(
-                max(((x + I16(static_cast<std::int16_t>(bias))) << left) >> right, I16(kLowest)),
-                I16(kHighest));
+            if (!plain) x = ((x + I16(static_cast<std::int16_t>(bias))) << left) >> right;
+            return min(max(x, I16(kLowest)), I16(kHighest));
         }
         int bias, left, right;
+        bool plain = bias == 0 && left == 0;  // then right is 0, too
     };
 };
 
@@ -127,23 +127,31 @@ struct Wide {
               right(ctx.scale == OutputScale::half ? 1 : 0),
               limit(ctx.wide != 0 ? 32767 : kOne) {}
         I16 operator()(Value x) const {
-            const I32 b(bias);
-            const I16 v = narrow(((x.lo + b) << left) >> right, ((x.hi + b) << left) >> right);
+            if (!plain) {
+                const I32 b(bias);
+                x = {((x.lo + b) << left) >> right, ((x.hi + b) << left) >> right};
+            }
+            const I16 v = narrow(x.lo, x.hi);
             const I16 lowest(static_cast<std::int16_t>(limit == 32767 ? -32768 : -limit));
             return min(max(v, lowest), I16(limit));
         }
         int bias, left, right;
+        bool plain = bias == 0 && left == 0;
         std::int16_t limit;
     };
 };
+
+const std::int16_t* plane_of(const Packet& packet, std::ptrdiff_t plane) {
+    return packet.planes + plane * kPacketSize;
+}
 
 /// An operand's planes, copied out of the argument: vector stores might alias it otherwise.
 template <class Model>
 struct Source {
     Source(const Packet& packet, const Operand& operand, std::int16_t scale)
-        : map(operand.mapping, scale) {
-        for (int c = 0; c < 3; ++c) plane[c] = packet.planes + operand.plane[c] * kPacketSize;
-    }
+        : plane{plane_of(packet, operand.plane[0]), plane_of(packet, operand.plane[1]),
+                plane_of(packet, operand.plane[2])},
+          map(operand.mapping, scale) {}
     I16 operator()(int component, int i) const { return map(load(plane[component] + i)); }
     const std::int16_t* plane[3];
     typename Model::Map map;
@@ -158,32 +166,65 @@ template <class Model>
     return Model::add(first, Model::product(a(2, i), b(2, i)));
 }
 
+/// The outputs of one component.
+template <class Model, ProductKind Cd, ThirdKind Third>
+struct Sink {
+    Sink(const Packet& packet, const PortionCtx& ctx, int component)
+        : selector(plane_of(packet, ctx.mux_plane)),
+          ab_out(packet.planes + std::ptrdiff_t{ctx.ab_out[component]} * kPacketSize),
+          cd_out(packet.planes + std::ptrdiff_t{ctx.cd_out[component]} * kPacketSize),
+          third_out(packet.planes + std::ptrdiff_t{ctx.third_out[component]} * kPacketSize) {}
+    void operator()(const typename Model::Output& output, int i, typename Model::Value ab,
+                    typename Model::Value cd) const {
+        // Both at one place: nobody reads them.
+        if (Third == ThirdKind::none || ab_out != cd_out) {
+            store(ab_out + i, output(ab));
+            if constexpr (Cd != ProductKind::none) store(cd_out + i, output(cd));
+        }
+        if constexpr (Third == ThirdKind::sum) store(third_out + i, output(Model::add(ab, cd)));
+        if constexpr (Third == ThirdKind::mux)
+            store(third_out + i, output(Model::mux(load(selector + i), ab, cd)));
+    }
+    const std::int16_t* selector;
+    std::int16_t *ab_out, *cd_out, *third_out;
+};
+
+/// Products go component by component; where there is a dot, which serves all of them, fragments
+/// come first.
 template <class Model, ProductKind Ab, ProductKind Cd, ThirdKind Third>
 void portion(Packet& packet, const PortionCtx& ctx) {
-    const Source<Model> a(packet, ctx.a, Model::kScaleA), b(packet, ctx.b, Model::kScaleB),
-        c(packet, ctx.c, Model::kScaleA), d(packet, ctx.d, Model::kScaleB);
+    using Map = typename Model::Map;
+    using Source = Source<Model>;
+    using Sink = Sink<Model, Cd, Third>;
     const typename Model::Output output(ctx);
     const int components = ctx.components, n = group_count(packet);
-    const std::int16_t* const selector = packet.planes + ctx.mux_plane * kPacketSize;
-    std::int16_t *ab_out[3], *cd_out[3], *third_out[3];
-    for (int k = 0; k < 3; ++k) {
-        ab_out[k] = packet.planes + ctx.ab_out[k] * kPacketSize;
-        cd_out[k] = packet.planes + ctx.cd_out[k] * kPacketSize;
-        third_out[k] = packet.planes + ctx.third_out[k] * kPacketSize;
-    }
-    for (int i = 0; i < n; i += kLanes) {
-        typename Model::Value ab, cd;
-        if constexpr (Ab == ProductKind::dot) ab = dot_product<Model>(a, b, i);
-        if constexpr (Cd == ProductKind::dot) cd = dot_product<Model>(c, d, i);
+    typename Model::Value ab, cd;
+    if constexpr (Ab != ProductKind::dot && Cd != ProductKind::dot) {
+        const Map map_a(ctx.a.mapping, Model::kScaleA), map_b(ctx.b.mapping, Model::kScaleB),
+            map_c(ctx.c.mapping, Model::kScaleA), map_d(ctx.d.mapping, Model::kScaleB);
         for (int k = 0; k < components; ++k) {
-            if constexpr (Ab == ProductKind::multiply) ab = Model::product(a(k, i), b(k, i));
-            if constexpr (Cd == ProductKind::multiply) cd = Model::product(c(k, i), d(k, i));
-            store(ab_out[k] + i, output(ab));
-            if constexpr (Cd != ProductKind::none) store(cd_out[k] + i, output(cd));
-            if constexpr (Third == ThirdKind::sum)
-                store(third_out[k] + i, output(Model::add(ab, cd)));
-            if constexpr (Third == ThirdKind::mux) {
-                store(third_out[k] + i, output(Model::mux(load(selector + i), ab, cd)));
+            const std::int16_t *const a = plane_of(packet, ctx.a.plane[k]),
+                                      *const b = plane_of(packet, ctx.b.plane[k]),
+                                      *const c = plane_of(packet, ctx.c.plane[k]),
+                                      *const d = plane_of(packet, ctx.d.plane[k]);
+            const Sink sink(packet, ctx, k);
+            for (int i = 0; i < n; i += kLanes) {
+                ab = Model::product(map_a(load(a + i)), map_b(load(b + i)));
+                if constexpr (Cd != ProductKind::none)
+                    cd = Model::product(map_c(load(c + i)), map_d(load(d + i)));
+                sink(output, i, ab, cd);
+            }
+        }
+    } else {
+        const Source a(packet, ctx.a, Model::kScaleA), b(packet, ctx.b, Model::kScaleB),
+            c(packet, ctx.c, Model::kScaleA), d(packet, ctx.d, Model::kScaleB);
+        for (int i = 0; i < n; i += kLanes) {
+            if constexpr (Ab == ProductKind::dot) ab = dot_product<Model>(a, b, i);
+            if constexpr (Cd == ProductKind::dot) cd = dot_product<Model>(c, d, i);
+            for (int k = 0; k < components; ++k) {
+                if constexpr (Ab == ProductKind::multiply) ab = Model::product(a(k, i), b(k, i));
+                if constexpr (Cd == ProductKind::multiply) cd = Model::product(c(k, i), d(k, i));
+                Sink(packet, ctx, k)(output, i, ab, cd);
             }
         }
     }
