@@ -141,7 +141,7 @@ struct Wide {
     };
 };
 
-const std::int16_t* plane_of(const Packet& packet, std::ptrdiff_t plane) {
+std::int16_t* plane_of(const Packet& packet, std::ptrdiff_t plane) {
     return packet.planes + plane * kPacketSize;
 }
 
@@ -171,12 +171,12 @@ template <class Model, ProductKind Cd, ThirdKind Third>
 struct Sink {
     Sink(const Packet& packet, const PortionCtx& ctx, int component)
         : selector(plane_of(packet, ctx.mux_plane)),
-          ab_out(packet.planes + std::ptrdiff_t{ctx.ab_out[component]} * kPacketSize),
-          cd_out(packet.planes + std::ptrdiff_t{ctx.cd_out[component]} * kPacketSize),
-          third_out(packet.planes + std::ptrdiff_t{ctx.third_out[component]} * kPacketSize) {}
-    void operator()(const typename Model::Output& output, int i, typename Model::Value ab,
-                    typename Model::Value cd) const {
-        // Both at one place: nobody reads them.
+          ab_out(plane_of(packet, ctx.ab_out[component])),
+          cd_out(plane_of(packet, ctx.cd_out[component])),
+          third_out(plane_of(packet, ctx.third_out[component])) {}
+    void operator()(const typename Model::Output& output, int i, const typename Model::Value& ab,
+                    const typename Model::Value& cd) const {
+        // Both in one plane: that is the trash.
         if (Third == ThirdKind::none || ab_out != cd_out) {
             store(ab_out + i, output(ab));
             if constexpr (Cd != ProductKind::none) store(cd_out + i, output(cd));
@@ -194,8 +194,7 @@ struct Sink {
 template <class Model, ProductKind Ab, ProductKind Cd, ThirdKind Third>
 void portion(Packet& packet, const PortionCtx& ctx) {
     using Map = typename Model::Map;
-    using Source = Source<Model>;
-    using Sink = Sink<Model, Cd, Third>;
+    using Outputs = Sink<Model, Cd, Third>;
     const typename Model::Output output(ctx);
     const int components = ctx.components, n = group_count(packet);
     typename Model::Value ab, cd;
@@ -207,16 +206,16 @@ void portion(Packet& packet, const PortionCtx& ctx) {
                                       *const b = plane_of(packet, ctx.b.plane[k]),
                                       *const c = plane_of(packet, ctx.c.plane[k]),
                                       *const d = plane_of(packet, ctx.d.plane[k]);
-            const Sink sink(packet, ctx, k);
+            const Outputs outputs(packet, ctx, k);
             for (int i = 0; i < n; i += kLanes) {
                 ab = Model::product(map_a(load(a + i)), map_b(load(b + i)));
                 if constexpr (Cd != ProductKind::none)
                     cd = Model::product(map_c(load(c + i)), map_d(load(d + i)));
-                sink(output, i, ab, cd);
+                outputs(output, i, ab, cd);
             }
         }
     } else {
-        const Source a(packet, ctx.a, Model::kScaleA), b(packet, ctx.b, Model::kScaleB),
+        const Source<Model> a(packet, ctx.a, Model::kScaleA), b(packet, ctx.b, Model::kScaleB),
             c(packet, ctx.c, Model::kScaleA), d(packet, ctx.d, Model::kScaleB);
         for (int i = 0; i < n; i += kLanes) {
             if constexpr (Ab == ProductKind::dot) ab = dot_product<Model>(a, b, i);
@@ -224,7 +223,7 @@ void portion(Packet& packet, const PortionCtx& ctx) {
             for (int k = 0; k < components; ++k) {
                 if constexpr (Ab == ProductKind::multiply) ab = Model::product(a(k, i), b(k, i));
                 if constexpr (Cd == ProductKind::multiply) cd = Model::product(c(k, i), d(k, i));
-                Sink(packet, ctx, k)(output, i, ab, cd);
+                Outputs(packet, ctx, k)(output, i, ab, cd);
             }
         }
     }

@@ -149,6 +149,14 @@ struct StoreWide {
     static float to_float(std::int16_t v) { return static_cast<float>(v) / 16384.0F; }
 };
 
+/// Eight pixels in a row, as most are. Four indices at a time, which are too small to carry.
+bool are_consecutive(const std::uint16_t* pixels) {
+    std::uint64_t four[2];
+    __builtin_memcpy(four, pixels, sizeof four);
+    const std::uint64_t first = pixels[0] * 0x0001000100010001U + 0x0003000200010000U;
+    return four[0] == first && four[1] == first + 0x0004000400040004U;
+}
+
 template <class Model>
 void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
     const std::int16_t* plane[4];
@@ -171,6 +179,12 @@ void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
         int part = 0;
         for (; part + 8 <= used; part += 8) {
             const std::int16_t *low = half[0] + part, *high = half[1] + part;
+            if (are_consecutive(pixels + i + part)) {
+                std::uint32_t* const to = tile + pixels[i + part];
+                __builtin_memcpy(to, low, 16);
+                __builtin_memcpy(to + 4, high, 16);
+                continue;
+            }
             put(low, part);
             put(low + 2, part + 1);
             put(low + 4, part + 2);

@@ -110,7 +110,8 @@ struct PortionCtx {
     std::uint8_t wide;        ///< wide model: saturate at the register's range, not at [-1, 1]
     std::uint8_t components;  ///< 1 or 3 planes to write per output
     std::int16_t mux_plane;   ///< spare0.alpha, for mux
-    std::int16_t ab_out[3], cd_out[3], third_out[3];  ///< planes; unused outputs name a trash plane
+    /// Planes; unused outputs name one and the same trash plane.
+    std::int16_t ab_out[3], cd_out[3], third_out[3];
 };
 
 /// The final combiner: planes out[0 .. 2] = min(1, A*B + (1 - A)*C + D), out[3] = G.
