@@ -37,8 +37,16 @@ struct FrameView {
     Viewport viewport;
 };
 
-/// Program, inputs, indices and raster state of `object`; no vertex is touched yet.
+/// What draws `object`: its program, or its model as a program for the scene's machine.
 /// Throws Error{bad_program} or {bad_option} for what cannot be drawn.
+ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps);
+
+/// Inputs, indices and raster state of `object` under `program`; no vertex is touched yet.
+/// Throws as program_of does.
+void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
+                  const ProgramMaterial& program, Keep keep = Keep::what_is_read);
+
+/// The same with the object's own program.
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps);
 
 /// Vertices to the screen, and what they hand to the interpolators.

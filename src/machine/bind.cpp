@@ -51,10 +51,10 @@ class Binder {
         set_initial_registers(enabled_units);
     }
 
-    BoundProgram bind() {
+    BoundProgram bind(Keep keep) {
         for (std::size_t s = 0; s < m_program.stages.size(); ++s) add_stage(static_cast<int>(s));
         read_final();
-        drop_unread();
+        if (keep == Keep::what_is_read) drop_unread();
         allocate();
         return std::move(m_bound);
     }
@@ -418,9 +418,9 @@ bool BoundProgram::reads(Register r) const {
 }
 
 BoundProgram bind(const CombinerProgram& program, const Machine& machine,
-                  std::uint32_t enabled_units) {
+                  std::uint32_t enabled_units, Keep keep) {
     program.validate(machine);
-    return Binder(program, machine, enabled_units).bind();
+    return Binder(program, machine, enabled_units).bind(keep);
 }
 
 void load_constants(const BoundProgram& program, Packet& packet) {

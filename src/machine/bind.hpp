@@ -34,10 +34,16 @@ struct BoundProgram {
     [[nodiscard]] bool reads(Register r) const;
 };
 
+/// Which results of a program are computed, and hence which inputs are asked for.
+enum class Keep : std::uint8_t {
+    what_is_read,
+    everything,  ///< whoever looks at registers between stages wants them all
+};
+
 /// @param enabled_units bit i: texture unit i delivers texels; others read (0, 0, 0, 1).
 /// Throws Error{bad_program} for what `machine` cannot run.
 BoundProgram bind(const CombinerProgram& program, const Machine& machine,
-                  std::uint32_t enabled_units);
+                  std::uint32_t enabled_units, Keep keep = Keep::what_is_read);
 
 /// Fills the constant planes of a packet; needed once per packet memory and program.
 void load_constants(const BoundProgram& program, Packet& packet);
