@@ -6,6 +6,7 @@
 #include <burnish/error.hpp>
 
 #include "geometry/clip.hpp"
+#include "machine/show_register.hpp"
 
 namespace burnish {
 
@@ -158,11 +159,14 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {
-    prepare_draw(draw, frame, object, program_of(object, *frame.scene, maps));
+    ProgramMaterial program = program_of(object, *frame.scene, maps);
+    Wanted wanted;
+    if (frame.shown) wanted = show_register(program.combiners, *frame.shown, frame.format);
+    prepare_draw(draw, frame, object, program, wanted);
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
-                  const ProgramMaterial& program, Keep keep) {
+                  const ProgramMaterial& program, const Wanted& wanted) {
     const LightSpace space =
         light_space(light_of(*frame.scene), frame.view, object.world_from_object);
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
@@ -170,7 +174,7 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
     draw.depth = depth_rule(object.raster);
     draw.shading.space = space;
     draw.shading.lit = {program.lit_tint, program.lit_base};
-    plan_shading(draw.shading, program, frame.scene->machine, mesh != nullptr, keep);
+    plan_shading(draw.shading, program, frame.scene->machine, mesh != nullptr, wanted);
     if (mesh != nullptr) {
         draw.indices = mesh->indices();
         draw.shading.frames = mesh->frames();

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <burnish/files.hpp>
 #include <string>
 #include <vector>
 
@@ -145,6 +147,34 @@ TEST_F(TraceCommand, WrongPixelsAreWrongUsage) {
     expect_failure("trace missing.toml --pixel 1,2", 3, "missing.toml");
     write_scene("up.toml", "[camera]\nposition = [0.0, 3.0, 0.0]\n");
     expect_failure("trace up.toml --pixel 1,2", 3, "camera");
+}
+
+// 128 is (128 + 255)/2, rounded up, of a byte; files of floats hold 128/255.
+TEST_F(TraceCommand, RegistersAsPictures) {
+    write_quad();
+    ASSERT_EQ(run("render q.toml --aov register:col0@inputs -o bytes.png").code, 0);
+    const Image8 bytes = load_image(path("bytes.png"));
+    const std::array<int, 4> coded{192, 128, 128, 153};
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(bytes.at(1, 3)[c], coded[static_cast<std::size_t>(c)]) << c;
+    EXPECT_EQ(bytes.at(6, 0)[0], 51) << "the background stays";
+    ASSERT_EQ(run("render q.toml --aov register:col0 -o floats.exr").code, 0);
+    EXPECT_EQ(load_image(path("floats.exr")).at(1, 3)[0], 128);
+    ASSERT_EQ(run("render q.toml --aov register:spare1@final --samples 4 -o zero.png").code, 0);
+    EXPECT_EQ(load_image(path("zero.png")).at(1, 3)[0], 128);
+    ASSERT_EQ(run("render q.toml --aov register:color_sum -o sum.png").code, 0);
+    EXPECT_EQ(load_image(path("sum.png")).at(1, 3)[0], 0);
+}
+
+TEST_F(TraceCommand, UnknownRegistersAreWrongUsage) {
+    write_quad();
+    expect_failure("render q.toml --aov colour", 2, "expected register:NAME");
+    expect_failure("render q.toml --aov register:spar0", 2, "did you mean 'spare0'?");
+    expect_failure("render q.toml --aov register:discard", 2, "unknown register 'discard'");
+    for (const char* stage : {"-1", "16", "1x", "", "last"})
+        expect_failure(fmt::format("render q.toml --aov register:tex0@{}", stage), 2,
+                       "a stage of 0 .. 15, inputs or final");
+    expect_failure("render q.toml --aov register:tex4", 3, "tex0 .. tex3");
 }
 
 }  // namespace

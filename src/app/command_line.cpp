@@ -104,6 +104,43 @@ std::string known_word(const std::string& option, const std::string& word,
     fail(fmt::format("{} {}, {}", option, word, expected_one_of(word, known)));
 }
 
+Register parse_register(const std::string& name) {
+    std::vector<std::string_view> known;
+    for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
+        const auto reg = static_cast<Register>(r);
+        if (register_name(reg) == name) return reg;
+        known.push_back(register_name(reg));
+    }
+    fail(fmt::format("--aov: unknown register '{}', {}", name, expected_one_of(name, known)));
+}
+
+/// register:NAME, register:NAME@STAGE, register:NAME@inputs or register:NAME@final.
+ShownRegister parse_aov(const std::string& text) {
+    constexpr std::string_view kKind = "register:";
+    if (!text.starts_with(kKind)) {
+        fail(fmt::format("--aov {}, expected register:NAME or register:NAME@STAGE", text));
+    }
+    const std::string_view rest = std::string_view(text).substr(kKind.size());
+    const std::size_t at = rest.find('@');
+    ShownRegister shown{.reg = parse_register(std::string(rest.substr(0, at)))};
+    if (at == std::string_view::npos) return shown;
+    const std::string_view place = rest.substr(at + 1);
+    if (place == "final") return shown;
+    if (place == "inputs") {
+        shown.stages = 0;
+        return shown;
+    }
+    std::size_t stage = 0;
+    const char* const end = place.data() + place.size();
+    const auto [stop, failure] = std::from_chars(place.data(), end, stage);
+    if (failure != std::errc() || stop != end || stage >= ShownRegister::kAllStages) {
+        fail(fmt::format("--aov {}, expected a stage of 0 .. {}, inputs or final after @", text,
+                         ShownRegister::kAllStages - 1));
+    }
+    shown.stages = stage + 1;
+    return shown;
+}
+
 void add_camera_options(CLI::App& verb, CameraOptions& camera) {
     const auto add_vec3 = [&](const char* name, std::optional<glm::vec3>& target,
                               const char* text) {
@@ -200,6 +237,10 @@ void add_render(CLI::App& verb, RenderOptions& options) {
             },
             "Print counts and times of the frame: text or json")
         ->type_name("FORMAT");
+    verb.add_option_function<std::string>(
+            "--aov", [&options](const std::string& text) { options.shown = parse_aov(text); },
+            "A register as the picture, e.g. register:spare0@1 after stage 1, ...@inputs, @final")
+        ->type_name("WHAT");
 }
 
 void add_trace(CLI::App& verb, TraceOptions& options) {

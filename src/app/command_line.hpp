@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/machine.hpp>
+#include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -44,6 +45,7 @@ struct RenderOptions {
     int samples = 1;     ///< per pixel: a square number
     int turntable = 0;   ///< frames of one turn; 0: a single picture
     StatsFormat stats = StatsFormat::none;
+    std::optional<ShownRegister> shown;  ///< --aov register:...
 };
 
 struct TraceOptions {

@@ -214,7 +214,7 @@ class Planner {
 }  // namespace
 
 void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                  bool is_mesh, Keep keep) {
+                  bool is_mesh, const Wanted& wanted) {
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
         throw Error(ErrorCode::bad_program,
                     fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
@@ -224,7 +224,7 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
     for (std::size_t i = 0; i < material.units.size(); ++i) {
         if (material.units[i]) enabled |= 1U << i;
     }
-    shading.program = bind(material.combiners, machine, enabled, keep);
+    shading.program = bind(material.combiners, machine, enabled, wanted);
     shading.textures = material.units;
     Planner(shading, material, is_mesh, machine.half_vector == HalfVector::pixel)
         .plan(shading.space);
@@ -279,7 +279,7 @@ void shade_packet(const Shading& shading, const KernelTable& kernels, const Attr
     }
     run(shading.program, kernels, packet);
     StoreCtx store{};
-    std::copy_n(shading.program.final_combiner.out, 4, store.plane);
+    std::copy_n(shading.program.result.begin(), 4, store.plane);
     store.format = format;
     store.tile = tile;
     (nine_bit ? kernels.store_nine_bit : kernels.store_wide)(packet, store);

@@ -50,7 +50,7 @@ struct Shading {
 /// Binds the program and plans its inputs. `space` and `lit` are set before, `frames` and
 /// `varyings` afterwards. Throws Error{bad_program} for what `machine` cannot run.
 void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                  bool is_mesh, Keep keep = Keep::what_is_read);
+                  bool is_mesh, const Wanted& wanted = {});
 
 /// Writes the shading.interpolated() attributes of one vertex.
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out);

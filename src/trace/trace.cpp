@@ -39,7 +39,7 @@ class TracedFrame {
         const Object& object = m_scene.objects[number];
         const ProgramMaterial program = program_of(object, m_scene, m_maps);
         Draw draw;
-        prepare_draw(draw, m_view, object, program, Keep::everything);
+        prepare_draw(draw, m_view, object, program, {.everything = true});
         transform_draw(draw, m_view, object, table_reference(), m_pool);
 
         TracedFragment out;
