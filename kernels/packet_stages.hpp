@@ -135,6 +135,7 @@ enum class StoreFormat : std::uint8_t { rgba8, rgba16, rgba32f };
 /// Codes of four planes to the pixels of the tile, which holds 4, 8 or 16 bytes each.
 /// nine_bit v in 0 .. 255: v; v * 257; float(v) / 255.
 /// wide v in 0 .. 16384: (v * 255 + 8192) >> 14; (v * 65535 + 8192) >> 14; float(v) / 16384.
+/// Floats may be any register's: v of the whole range.
 /// Only fragments 0 .. count - 1 are written.
 struct StoreCtx {
     std::int16_t plane[4];

@@ -141,7 +141,7 @@ struct ProgramPacket {
             for (std::size_t c = 0; c < 4; ++c) {
                 if (bound.input[r][c] < 0) continue;
                 for (std::size_t i = 0; i < inputs.size(); ++i)
-                    plane(bound.input[r][c])[i] = static_cast<std::int16_t>(inputs[i].codes[r][c]);
+                    plane(bound.input[r][c])[i] = static_cast<std::int16_t>(inputs[i].values[r][c]);
             }
         }
     }

@@ -266,5 +266,33 @@ TEST_P(KernelTest, WideStoreOfEveryCode) {
                 [](int i, int c) { return c == 1 ? 16384 - i % 16385 : (i + 4096 * c) % 16385; });
 }
 
+/// Floats take whole registers, signs included.
+void check_float_store(const KernelTable& table,
+                       void (*KernelTable::*stage)(Packet&, const StoreCtx&) noexcept, int low,
+                       int high) {
+    Random random(1);
+    for (int first = low; first <= high; first += kPacketSize / 2) {
+        PacketMemory packet;
+        packet.count = kPacketSize - 1;
+        packet.shuffle_pixels(random);
+        for (int c = 0; c < 4; ++c)
+            for (int i = 0; i < packet.count; ++i)
+                packet.plane(5 + c)[i] = static_cast<std::int16_t>(std::min(first + i, high));
+        AlignedVector<float> got(std::size_t{4} * kTilePixels), want = got;
+        StoreCtx ctx{{5, 6, 7, 8}, StoreFormat::rgba32f, got.data()};
+        Packet view = packet.view();
+        (table.*stage)(view, ctx);
+        ctx.tile = want.data();
+        (table_reference().*stage)(view, ctx);
+        for (std::size_t i = 0; i < got.size(); ++i)
+            ASSERT_EQ(got[i], want[i]) << table.isa << ", channel " << i << ", from " << first;
+    }
+}
+
+TEST_P(KernelTest, FloatStoreOfEveryRegisterCode) {
+    check_float_store(table(), &KernelTable::store_nine_bit, -256, 255);
+    check_float_store(table(), &KernelTable::store_wide, -32768, 32767);
+}
+
 }  // namespace
 }  // namespace burnish

@@ -311,6 +311,15 @@ TEST_P(ReferencePixels, PixelsInThreeFormats) {
     table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba32f, floats.data()});
     // 127.5 and 32767.5 round up; 33 is 0.514 of a byte and 131.998 of a word.
     expect({0, 128, 1, 255}, {0, 32768, 132, 65535}, {0.0F, 0.5F, 33.0F / 16384, 1.0F});
+    // Floats show registers, too, below 0 and above 1.
+    packet.plane(0)[0] = -256;
+    packet.plane(4)[0] = -32768;
+    packet.plane(5)[0] = 32767;
+    table().store_nine_bit(view, {{0, 1, 2, 3}, StoreFormat::rgba32f, floats.data()});
+    EXPECT_EQ(floats[28], -256.0F / 255);
+    table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba32f, floats.data()});
+    EXPECT_EQ(floats[28], -2.0F);
+    EXPECT_EQ(floats[29], 32767.0F / 16384);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace burnish::app {
 
 void run(const PrintText& text);
 void run(const RenderOptions& options);
+void run(const TraceOptions& options);
 void run(const BenchOptions& options);
 void run(const InfoOptions& options);
 void run(const BakeBrushedOptions& options);

@@ -13,37 +13,6 @@ namespace {
 
 enum class Place { rgb, alpha, final_rgb, final_alpha };
 
-std::string register_name(Register reg) {
-    if (reg >= Register::tex0 && reg <= Register::tex15)
-        return fmt::format("tex{}", static_cast<int>(reg) - static_cast<int>(Register::tex0));
-    switch (reg) {
-        case Register::zero:
-            return "zero";
-        case Register::const0:
-            return "const0";
-        case Register::const1:
-            return "const1";
-        case Register::fog:
-            return "fog";
-        case Register::col0:
-            return "col0";
-        case Register::col1:
-            return "col1";
-        case Register::spare0:
-            return "spare0";
-        case Register::spare1:
-            return "spare1";
-        case Register::color_sum:
-            return "color_sum";
-        case Register::final_product:
-            return "final_product";
-        case Register::discard:
-            return "discard";
-        default:
-            return fmt::format("register {}", static_cast<int>(reg));
-    }
-}
-
 bool is_pseudo(Register reg) {
     return reg == Register::color_sum || reg == Register::final_product;
 }

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <burnish/machine.hpp>
@@ -49,6 +50,9 @@ enum class Register : std::uint8_t {
 constexpr Register tex(int unit) {
     return static_cast<Register>(static_cast<int>(Register::tex0) + unit);
 }
+
+/// The name of `reg` in the text syntax; "unknown register" outside the enumeration.
+std::string_view register_name(Register reg);
 
 /// What an input does to the register component e in [-1, 1] that it reads.
 enum class Mapping : std::uint8_t {
