@@ -42,13 +42,14 @@ struct NineBit {
     static constexpr std::int16_t kScaleA = 64, kScaleB = 2;  // of the operands of product()
     static Value product(I16 a, I16 b) { return product_255(a, b); }
     static Value add(Value a, Value b) { return a + b; }
-    static Value mux(I16 selector, Value ab, Value cd) {
-        return ::xsimd::select(selector > I16(kHalf - 1), cd, ab);
+    /// cd where the selector is above the limit.
+    static Value mux(I16 selector, I16 limit, Value ab, Value cd) {
+        return ::xsimd::select(selector > limit, cd, ab);
     }
     struct Output {
         explicit Output(const PortionCtx& ctx)
             : bias((ctx.bias_minus_half != 0 ? -kHalf : 0) +
-                   (ctx.scale == OutputScale::half ? 1 : 0)),
+                   (ctx.scale == OutputScale::half && ctx.halve_down == 0 ? 1 : 0)),
               left(ctx.scale == OutputScale::two    ? 1
                    : ctx.scale == OutputScale::four ? 2
                                                     : 0),
@@ -66,6 +67,35 @@ struct NineBit {
 struct NineBitShort : NineBit {
     static constexpr std::int16_t kScaleA = 72, kScaleB = 114;
     static Value product(I16 a, I16 b) { return short_product_255(a, b); }
+};
+
+/// The nine-bit model with the choices that are not the NV2A's. Rarely used, so not tuned.
+template <Rounding R>
+struct NineBitChoice : NineBit {
+    static constexpr std::int16_t kScaleA = R == Rounding::shift8 ? 16 : 1, kScaleB = kScaleA;
+
+    /// The result may be cut to even numbers: (x - 127.5) with ties to even is (x - 127) so cut.
+    struct Map {
+        Map(std::uint8_t mapping, std::int16_t scale) : plain(mapping & 7, scale), even(-1) {
+            if (mapping < Operand::kIdealHalf) return;
+            const bool negates = (mapping & 1) != 0, expands = (mapping & 7) < 4;
+            const int offset = expands ? kOne : kHalf - (negates ? 0 : 1);
+            plain.offset = I16(static_cast<std::int16_t>(scale * (negates ? offset : -offset)));
+            if (!expands) even = I16(static_cast<std::int16_t>(-2 * scale));
+        }
+        I16 operator()(I16 e) const { return plain(e) & even; }
+        NineBit::Map plain;
+        I16 even;
+    };
+    static Value product(I16 a, I16 b) {
+        if constexpr (R == Rounding::shift8) return mul_high(a, b);  // 16 a * 16 b / 2^16
+        const I16 nearest = product_255(a << 6, b << 1);
+        if constexpr (R == Rounding::nearest) return nearest;
+        // Back by one where the remainder points away from zero.
+        const I16 sign = (a ^ b) >> 15, remainder = a * b - nearest * I16(255);
+        const I16 away = ((remainder ^ sign) - sign) >> 15;
+        return nearest + ((away ^ sign) - sign);
+    }
 };
 
 /// The wide model: 16-bit operands, 32-bit products and sums, so that nothing saturates early.
@@ -112,10 +142,9 @@ struct Wide {
                 (bitwise_cast<I32>(zip_hi16(low, high)) + half) >> 14};
     }
     static Value add(Value a, Value b) { return {a.lo + b.lo, a.hi + b.hi}; }
-    static Value mux(I16 selector, Value ab, Value cd) {
-        const I32 limit(kHalf - 1);
-        return {::xsimd::select(widen_lo(selector) > limit, cd.lo, ab.lo),
-                ::xsimd::select(widen_hi(selector) > limit, cd.hi, ab.hi)};
+    static Value mux(I16 selector, I16 limit, Value ab, Value cd) {
+        return {::xsimd::select(widen_lo(selector) > widen_lo(limit), cd.lo, ab.lo),
+                ::xsimd::select(widen_hi(selector) > widen_hi(limit), cd.hi, ab.hi)};
     }
     struct Output {
         explicit Output(const PortionCtx& ctx)
@@ -171,6 +200,8 @@ template <class Model, ProductKind Cd, ThirdKind Third>
 struct Sink {
     Sink(const Packet& packet, const PortionCtx& ctx, int component)
         : selector(plane_of(packet, ctx.mux_plane)),
+          selector_bits(ctx.mux_lsb != 0 ? 1 : -1),
+          limit(ctx.mux_lsb != 0 ? 0 : Model::kHalf - 1),
           ab_out(plane_of(packet, ctx.ab_out[component])),
           cd_out(plane_of(packet, ctx.cd_out[component])),
           third_out(plane_of(packet, ctx.third_out[component])) {}
@@ -183,9 +214,11 @@ struct Sink {
         }
         if constexpr (Third == ThirdKind::sum) store(third_out + i, output(Model::add(ab, cd)));
         if constexpr (Third == ThirdKind::mux)
-            store(third_out + i, output(Model::mux(load(selector + i), ab, cd)));
+            store(third_out + i,
+                  output(Model::mux(load(selector + i) & selector_bits, limit, ab, cd)));
     }
     const std::int16_t* selector;
+    I16 selector_bits, limit;
     std::int16_t *ab_out, *cd_out, *third_out;
 };
 
@@ -264,7 +297,24 @@ bool has_short_product(const Operand& a, const Operand& b) {
            a.plane[2] == b.plane[2];
 }
 
+/// None of the choices of NineBitChoice.
+bool is_usual(const PortionCtx& ctx) {
+    const auto usual = [](const Operand& o) { return o.mapping < Operand::kIdealHalf; };
+    return ctx.rounding == Rounding::nearest && usual(ctx.a) && usual(ctx.b) && usual(ctx.c) &&
+           usual(ctx.d);
+}
+
 void portion_nine_bit(Packet& packet, const PortionCtx& ctx) noexcept {
+    if (!is_usual(ctx)) {
+        switch (ctx.rounding) {
+            case Rounding::nearest:
+                return portion<NineBitChoice<Rounding::nearest>>(packet, ctx);
+            case Rounding::truncate:
+                return portion<NineBitChoice<Rounding::truncate>>(packet, ctx);
+            case Rounding::shift8:
+                return portion<NineBitChoice<Rounding::shift8>>(packet, ctx);
+        }
+    }
     if (has_short_product(ctx.a, ctx.b) &&
         (ctx.cd == ProductKind::none || has_short_product(ctx.c, ctx.d))) {
         portion<NineBitShort>(packet, ctx);

@@ -5,8 +5,17 @@ I16 quotient_255(I16 p128) {
 }
 
 /// Arithmetic of the final combiner, nine-bit model: all numbers are 0 .. 255, products 0 .. 65025.
+template <Rounding R, bool RoundEach>
 struct FinalNineBit {
     static constexpr std::int16_t kOne = 255;
+    /// What quotient() wants added to a product beforehand.
+    static constexpr std::int16_t kExtra = R == Rounding::nearest    ? 128
+                                           : R == Rounding::truncate ? 1
+                                                                     : 0;
+    static I16 quotient(I16 p) {
+        if constexpr (R == Rounding::shift8) return shift_right_logical(p, 8);
+        return quotient_255(p);
+    }
 
     /// Clamps to 0, then x or 1 - x.
     struct Map {
@@ -14,15 +23,20 @@ struct FinalNineBit {
         I16 operator()(I16 e) const { return max(e, I16(0)) ^ turn; }
         I16 turn;
     };
-    static I16 color_sum(I16 a, I16 b) { return max(a, I16(0)) + max(b, I16(0)); }
-    static I16 product(I16 a, I16 b) { return quotient_255(a * b + I16(128)); }
+    static I16 color_sum(I16 a, I16 b) { return a + b; }
+    static I16 product(I16 a, I16 b) { return quotient(a * b + I16(kExtra)); }
     static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
-        return quotient_255(a * b + ((a ^ I16(kOne)) * c + I16(128))) + d;
+        const I16 rest = a ^ I16(kOne);
+        if constexpr (RoundEach) return product(a, b) + product(rest, c) + d;
+        return quotient(a * b + (rest * c + I16(kExtra))) + d;
     }
 };
 
 /// The same with the colour sum, up to 510, as B, C or D.
-struct FinalNineBitSum : FinalNineBit {
+template <Rounding R, bool RoundEach>
+struct FinalNineBitSum : FinalNineBit<R, RoundEach> {
+    using Base = FinalNineBit<R, RoundEach>;
+    static constexpr std::int16_t kOne = Base::kOne, kExtra = Base::kExtra;
     struct Map {
         Map(bool inverted, bool /*is_sum*/)
             : turn(inverted ? -1 : 0), drop(inverted ? std::int16_t{~kOne} : std::int16_t{0}) {}
@@ -34,10 +48,15 @@ struct FinalNineBitSum : FinalNineBit {
     };
     /// Up to 1 and beyond 1 apart, so that products fit; a result above 255 may saturate.
     static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
-        const I16 one(kOne), rest = a ^ one, low_b = min(b, one), low_c = min(c, one);
-        const I16 low = a * low_b + (rest * low_c + I16(128));
-        const I16 high = a * (b - low_b) + rest * (c - low_c);
-        return quotient_255(add_saturating_unsigned(low, high)) + d;
+        const I16 one(kOne), extra(kExtra), rest = a ^ one;
+        const I16 low_b = min(b, one), low_c = min(c, one);
+        const I16 ab = a * low_b + extra, beyond_ab = a * (b - low_b);
+        const I16 cd = rest * low_c, beyond_cd = rest * (c - low_c);
+        if constexpr (RoundEach) {
+            return Base::quotient(add_saturating_unsigned(ab, beyond_ab)) +
+                   Base::quotient(add_saturating_unsigned(cd + extra, beyond_cd)) + d;
+        }
+        return Base::quotient(add_saturating_unsigned(ab + cd, beyond_ab + beyond_cd)) + d;
     }
 };
 
@@ -53,10 +72,7 @@ struct FinalWide {
         I16 operator()(I16 e) const { return (min(max(e, I16(0)), high) ^ turn) + offset; }
         I16 turn, offset, high;
     };
-    static I16 color_sum(I16 a, I16 b) {
-        const I16 zero(0), one(kOne);
-        return ::xsimd::sadd(min(max(a, zero), one), min(max(b, zero), one));
-    }
+    static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(a, b); }
     static I16 product(I16 a, I16 b) {
         const Wide::Value v = Wide::product(a, b);
         return narrow(v.lo, v.hi);
@@ -102,9 +118,12 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
             const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
             const std::int16_t* const spare0 = packet.planes + ctx.spare0[k] * kPacketSize;
             const std::int16_t* const secondary = packet.planes + ctx.secondary[k] * kPacketSize;
+            const typename Model::Map map0(ctx.complement_spare0 != 0, false),
+                map1(ctx.complement_secondary != 0, false);
             for (int i = 0; i < n; i += kLanes) {
                 store(pseudo.sum + i,
-                      min(Model::color_sum(load(spare0 + i), load(secondary + i)), limit));
+                      min(Model::color_sum(map0(load(spare0 + i)), map1(load(secondary + i))),
+                          limit));
             }
         }
         if (ctx.uses_final_product != 0) {
@@ -124,11 +143,27 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
     std::int16_t* const alpha = packet.planes + ctx.out[3] * kPacketSize;
     for (int i = 0; i < n; i += kLanes) store(alpha + i, g(i));
 }
-void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
+template <Rounding R, bool RoundEach>
+void final_nine_bit(Packet& packet, const FinalCtx& ctx) {
     if (ctx.uses_color_sum != 0) {
-        final_combiner<FinalNineBitSum>(packet, ctx);
+        final_combiner<FinalNineBitSum<R, RoundEach>>(packet, ctx);
     } else {
-        final_combiner<FinalNineBit>(packet, ctx);
+        final_combiner<FinalNineBit<R, RoundEach>>(packet, ctx);
+    }
+}
+template <Rounding R>
+void final_nine_bit(Packet& packet, const FinalCtx& ctx) {
+    if (ctx.round_each != 0) return final_nine_bit<R, true>(packet, ctx);
+    final_nine_bit<R, false>(packet, ctx);
+}
+void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
+    switch (ctx.rounding) {
+        case Rounding::nearest:
+            return final_nine_bit<Rounding::nearest>(packet, ctx);
+        case Rounding::truncate:
+            return final_nine_bit<Rounding::truncate>(packet, ctx);
+        case Rounding::shift8:
+            return final_nine_bit<Rounding::shift8>(packet, ctx);
     }
 }
 void final_wide(Packet& packet, const FinalCtx& ctx) noexcept {

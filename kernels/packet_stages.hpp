@@ -86,8 +86,11 @@ struct FetchCtx {
 };
 
 /// An input of a combiner portion: the register planes of its components and the mapping, by the
-/// numbers 0 .. 7 of the hardware (burnish::Mapping in the same order).
+/// numbers 0 .. 7 of the hardware (burnish::Mapping in the same order). kIdealHalf + 2 .. 5 are
+/// expand .. half_bias_negate with 1/2 = 127.5, nine-bit portions only.
 struct Operand {
+    static constexpr std::uint8_t kIdealHalf = 8;
+
     std::int16_t plane[3];
     std::uint8_t mapping;
 };
@@ -95,6 +98,8 @@ struct Operand {
 enum class ProductKind : std::uint8_t { none, multiply, dot };
 enum class ThirdKind : std::uint8_t { none, sum, mux };
 enum class OutputScale : std::uint8_t { one, two, four, half };
+/// x / 255 to nearest, towards zero, or floor(x / 256). The wide model knows `nearest` only.
+enum class Rounding : std::uint8_t { nearest, truncate, shift8 };
 
 /// One portion of a general combiner stage (docs/numbers.md has the arithmetic of both models).
 /// For component c in 0 .. components - 1: AB = A[c] * B[c] or the dot product over components
@@ -106,6 +111,9 @@ struct PortionCtx {
     ProductKind ab, cd;  ///< ab is never `none`; cd is none only where third is, too
     ThirdKind third;
     OutputScale scale;
+    Rounding rounding;        ///< of products
+    std::uint8_t halve_down;  ///< nine-bit, scale half: floor instead of half up
+    std::uint8_t mux_lsb;     ///< nine-bit: mux tests bit 0 of its plane, not whether it is >= 1/2
     std::uint8_t bias_minus_half;
     std::uint8_t wide;        ///< wide model: saturate at the register's range, not at [-1, 1]
     std::uint8_t components;  ///< 1 or 3 planes to write per output
@@ -124,6 +132,9 @@ struct FinalCtx {
     Operand g;               ///< plane[0]
     std::int16_t spare0[3];  ///< planes that the colour sum adds
     std::int16_t secondary[3];
+    Rounding rounding;        ///< of E F and of A B + (1 - A) C
+    std::uint8_t round_each;  ///< nine-bit: A B and (1 - A) C are rounded apart
+    std::uint8_t complement_spare0, complement_secondary;  ///< 1 - x in the colour sum
     std::uint8_t clamp_color_sum;
     std::uint8_t uses_color_sum;
     std::uint8_t uses_final_product;
