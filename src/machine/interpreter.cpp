@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "machine/fetches.hpp"
+
 namespace burnish {
 
 namespace {
@@ -200,6 +202,7 @@ int color_code(float x, NumberModel model) {
 
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace) {
+    require_no_fetches(program);
     const Numbers& n = numbers_of(machine.numbers);
     RegisterFile registers = initial_registers(program, machine.numbers, inputs);
     const Codes global0 = registers[Register::const0];

@@ -18,6 +18,13 @@ enum class HalfVector {
     pixel,   ///< from the interpolated frame and position, normalised at every pixel
 };
 
+/// What texture units can do before the combiners (burnish/texture_shader.hpp).
+enum class TextureOperations {
+    plain,  ///< fetches by interpolated coordinates from 1D, 2D, rectangle and cube map textures
+    nv2a,   ///< those of NV_texture_shader and NV_texture_shader2, and the chip's BRDF mode
+    all,    ///< NV_texture_shader3, too
+};
+
 /// A machine profile: data that says what a program may use and how numbers behave.
 /// Any field may be overridden after `machine_profile()`; `validate()` checks the result.
 struct Machine {
@@ -25,6 +32,8 @@ struct Machine {
     int texture_units = 16;       ///< 1 .. 16
     int general_stages = 16;      ///< 0 .. 16
     bool stage_constants = true;  ///< const0 and const1 may differ from stage to stage
+    bool stage_fetches = true;    ///< texture fetches between general stages
+    TextureOperations texture_operations = TextureOperations::all;
     NumberModel numbers = NumberModel::wide;
     HalfVector half_vector = HalfVector::pixel;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
