@@ -198,6 +198,14 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
     verb.add_flag("--json", options.json, "Print JSON");
 }
 
+void add_compile(CLI::App& verb, CompileOptions& options) {
+    verb.add_option("FILE.rc", options.combiners, "Combiners: !!RC1.0 or !!BRN1.0")
+        ->required()
+        ->type_name("");
+    verb.add_option("FILE.ts", options.texture_shader, "Texture shader: !!TS1.0")->type_name("");
+    verb.add_flag("--json", options.json, "Print JSON");
+}
+
 void add_bake_mesh(CLI::App& verb, BakeMeshOptions& options) {
     verb.add_option_function<std::string>(
             "SHAPE",
@@ -232,6 +240,7 @@ struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
     RenderOptions render;
     BenchOptions bench;
+    CompileOptions compile;
     InfoOptions info;
     BakeBrushedOptions brushed;
     BakeMeshOptions mesh;
@@ -240,6 +249,7 @@ struct Parser {
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
+    CLI::App* compile_verb = app.add_subcommand("compile", "Checks and prints program texts");
     CLI::App* info_verb =
         app.add_subcommand("info", "Version, instruction sets, profiles, formats");
 
@@ -249,6 +259,7 @@ struct Parser {
         bake_verb->require_subcommand(1);
         add_render(*render_verb, render);
         add_bench(*bench_verb, bench);
+        add_compile(*compile_verb, compile);
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
         add_bake_mesh(*mesh_verb, mesh);
@@ -257,6 +268,7 @@ struct Parser {
     Command chosen() const {
         if (render_verb->parsed()) return render;
         if (bench_verb->parsed()) return bench;
+        if (compile_verb->parsed()) return compile;
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
         return mesh;

@@ -52,6 +52,12 @@ struct BenchOptions {
     bool json = false;
 };
 
+struct CompileOptions {
+    std::filesystem::path combiners;
+    std::filesystem::path texture_shader;  ///< empty: none
+    bool json = false;
+};
+
 struct InfoOptions {
     bool json = false;
 };
@@ -74,7 +80,7 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, BenchOptions, InfoOptions,
+using Command = std::variant<PrintText, RenderOptions, BenchOptions, CompileOptions, InfoOptions,
                              BakeBrushedOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
