@@ -56,7 +56,8 @@ rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|pr
   "core knows no stage")
 rule("^src/(image|mesh|machine|models|program|scene)/" DENY "\"(app|geometry|io|pipeline|raster|shade)[/.]"
   "data knows no stage")
-rule("^src/program/" DENY "\"(image|kernels|machine|mesh|models|scene)[/.]" "text knows the public data only")
+rule("^src/program/" DENY "\"(image|kernels|machine|mesh|models|scene)[/.]"
+  "text knows the public data only")
 rule("^src/io/" DENY "\"(app|geometry|kernels|pipeline|raster|shade)[/.]" "files know no stage")
 rule("^src/geometry/" DENY "\"(app|io|pipeline|raster|shade)[/.]" "later stage")
 rule("^src/raster/" DENY "\"(app|io|pipeline|shade)[/.]" "only pipeline.cpp knows both")

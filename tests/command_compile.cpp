@@ -30,9 +30,9 @@ constants
   const0  0.25  0  0  1
   const1  0     0  0  0
 general stages
-  stage  portion  A                 B                 C        D     AB                CD                third           scale
-  0      rgb      expand(tex0.rgb)  expand(col0.rgb)  zero     zero  A . B -> spare0   C * D -> discard  sum -> discard  * 2
-  0      alpha    tex0.a            one               -tex1.b  one   A * B -> discard  C * D -> discard  mux -> spare0   * 1
+  stage  portion  A                 B                 C        D     AB               CD     third          output
+  0      rgb      expand(tex0.rgb)  expand(col0.rgb)  zero     zero  A . B -> spare0  -      -              x * 2
+  0      alpha    tex0.a            one               -tex1.b  one   A * B            C * D  mux -> spare0  x
 final combiner: rgb = A * B + (1 - A) * C + D, alpha = G, final_product = E * F
   A                     B                   C                     D               E               F               G    color_sum
   unsigned(spare0.rgb)  unsigned(tex1.rgb)  unsigned(const0.rgb)  unsigned(zero)  unsigned(zero)  unsigned(zero)  one  not clamped
@@ -64,7 +64,7 @@ TEST_F(Compile, SaysWhyAMachineCannotRunIt) {
     EXPECT_SAYS(result.out, "new.rc: BRN1.0, 1 general stage\n");
     EXPECT_SAYS(result.out, "fetches\n  before stage 0  tex1 = table_1d(tex0.r)\n");
     EXPECT_SAYS(result.out, "  const1 in stage 0  0.5  0  0  1\n");
-    EXPECT_SAYS(result.out, "- 1/2, * 1, wide");
+    EXPECT_SAYS(result.out, "A * B -> spare0  -   -      (x - 1/2), wide\n");
     EXPECT_SAYS(
         result.out,
         "geforce256  cannot: stage 0: has constants of its own, machine 'geforce256' has only");

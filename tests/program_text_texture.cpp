@@ -219,6 +219,19 @@ TEST(TextureShaderErrors, ReferencesToUnitsWithoutOutput) {
         "tex0 has no output");
 }
 
+TEST(TextureShaderErrors, DepthIsReplacedOnce) {
+    expect_texture_error(
+        "!!TS1.0 texture_2d(); dot_product_depth_replace_1of2(tex0); "
+        "dot_product_depth_replace_2of2(tex0); "
+        "@dot_product_affine_depth_replace(tex0);",
+        "replaces the depth, as an earlier unit does");
+    TextureShader shader;
+    for (TextureUnit& unit : shader.units)
+        unit.operation = TextureOperation::dot_product_affine_depth_replace;
+    shader.units[0].operation = TextureOperation::texture_2d;
+    EXPECT_THROW(shader.validate(Machine()), Error);
+}
+
 TEST(TextureShaderErrors, Arguments) {
     expect_texture_error("!!TS1.0 texture_2d(@tex0);", "found 'tex0', expected ')'");
     expect_texture_error("!!TS1.0 texture_2d(); offset_2d(tex0, 1, 2, 3@);", "expected ','");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 #include <filesystem>
@@ -19,11 +20,13 @@ std::string read_text(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
         throw Error(ErrorCode::io, fmt::format("{}: cannot be opened for reading", path.string()));
-    std::string text(kLargestText + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (stream.bad() || std::filesystem::is_directory(path))
-        throw Error(ErrorCode::io, fmt::format("{}: cannot be read", path.string()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string text;
+    std::array<char, 1 << 16> chunk;
+    do {
+        stream.read(chunk.data(), chunk.size());
+        text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+    } while (stream && text.size() <= kLargestText);
+    if (stream.bad()) throw Error(ErrorCode::io, fmt::format("{}: cannot be read", path.string()));
     if (text.size() > kLargestText)
         throw Error(ErrorCode::limit, fmt::format("{}: more than {} MB, expected a program",
                                                   path.string(), kLargestText >> 20));
@@ -50,20 +53,6 @@ std::string complaint(const Compiled& compiled, std::string_view profile) {
 }
 
 }  // namespace
-
-double scale_factor(Scale scale) {
-    switch (scale) {
-        case Scale::one:
-            return 1.0;
-        case Scale::two:
-            return 2.0;
-        case Scale::four:
-            return 4.0;
-        case Scale::half:
-            return 0.5;
-    }
-    return 1.0;
-}
 
 std::string language_of(const CombinerProgram& program) {
     const std::string text = print_combiners(program);

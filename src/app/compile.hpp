@@ -28,8 +28,6 @@ std::string compiled_text(const Compiled& compiled);
 /// One object, one line; inputs as print_input writes them.
 std::string compiled_json(const Compiled& compiled);
 
-/// 1, 2, 4 or 0.5
-double scale_factor(Scale scale);
 /// The header of the oldest language that can say it, without the exclamation marks.
 std::string language_of(const CombinerProgram& program);
 

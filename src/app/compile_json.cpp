@@ -24,6 +24,20 @@ std::string json_output(std::string_view operation, Register to) {
     return fmt::format("{{\"operation\": \"{}\", \"to\": \"{}\"}}", operation, register_name(to));
 }
 
+double scale_factor(Scale scale) {
+    switch (scale) {
+        case Scale::one:
+            return 1.0;
+        case Scale::two:
+            return 2.0;
+        case Scale::four:
+            return 4.0;
+        case Scale::half:
+            return 0.5;
+    }
+    return 1.0;
+}
+
 std::string json_portion(const Portion& p) {
     const auto name = [](Product product) { return product == Product::dot ? "dot" : "multiply"; };
     return fmt::format(

@@ -8,15 +8,25 @@
 namespace burnish::app {
 namespace {
 
-std::string output(std::string_view operation, Register to) {
-    return fmt::format("{} -> {}", operation, register_name(to));
+/// "A . B -> spare0"; without the arrow if only the third output has a use for it.
+std::string product(const char* terms, Register to, const Portion& portion) {
+    if (to != Register::discard) return fmt::format("{} -> {}", terms, register_name(to));
+    return portion.third_out != Register::discard ? terms : "-";
 }
 
-std::string scale_and_bias(const Portion& portion) {
-    return fmt::format(
-        "{}{}{}", portion.bias_minus_half ? "- 1/2, " : "",
-        portion.scale == Scale::half ? "* 1/2" : fmt::format("* {}", scale_factor(portion.scale)),
-        portion.wide ? ", wide" : "");
+std::string third(const Portion& portion) {
+    if (portion.third_out == Register::discard) return "-";
+    return fmt::format("{} -> {}", portion.third == Third::mux ? "mux" : "sum",
+                       register_name(portion.third_out));
+}
+
+/// What becomes of an output x.
+std::string scaled(const Portion& portion) {
+    std::string text = portion.bias_minus_half ? "(x - 1/2)" : "x";
+    if (portion.scale == Scale::half) text += " / 2";
+    if (portion.scale == Scale::two) text += " * 2";
+    if (portion.scale == Scale::four) text += " * 4";
+    return portion.wide ? text + ", wide" : text;
 }
 
 TableRow portion_row(std::size_t stage, std::string_view name, const Portion& p) {
@@ -26,15 +36,15 @@ TableRow portion_row(std::size_t stage, std::string_view name, const Portion& p)
             print_input(p.b),
             print_input(p.c),
             print_input(p.d),
-            output(p.ab_product == Product::dot ? "A . B" : "A * B", p.ab_out),
-            output(p.cd_product == Product::dot ? "C . D" : "C * D", p.cd_out),
-            output(p.third == Third::mux ? "mux" : "sum", p.third_out),
-            scale_and_bias(p)};
+            product(p.ab_product == Product::dot ? "A . B" : "A * B", p.ab_out, p),
+            product(p.cd_product == Product::dot ? "C . D" : "C * D", p.cd_out, p),
+            third(p),
+            p.writes() ? scaled(p) : "-"};
 }
 
 std::string stages_text(const CombinerProgram& program) {
     std::vector<TableRow> rows{
-        {"stage", "portion", "A", "B", "C", "D", "AB", "CD", "third", "scale"}};
+        {"stage", "portion", "A", "B", "C", "D", "AB", "CD", "third", "output"}};
     for (std::size_t i = 0; i < program.stages.size(); ++i) {
         const GeneralStage& stage = program.stages[i];
         rows.push_back(portion_row(i, "rgb", stage.rgb));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <cmath>
 #include <string>
@@ -131,9 +132,18 @@ bool reads_previous(TextureOperation operation) {
            operation <= TextureOperation::dot_product_affine_depth_replace;
 }
 
+bool replaces_depth(TextureOperation operation) {
+    return operation == TextureOperation::dot_product_depth_replace ||
+           operation == TextureOperation::dot_product_affine_depth_replace;
+}
+
 void TextureShader::validate(const Machine& machine) const {
     for (int i = 0; i < kTextureShaderUnits; ++i)
         check_unit(i, units[static_cast<std::size_t>(i)], machine);
+    const auto depths = std::count_if(units.begin(), units.end(), [](const TextureUnit& unit) {
+        return replaces_depth(unit.operation);
+    });
+    if (depths > 1) throw Error(ErrorCode::bad_program, "two texture units replace the depth");
 }
 
 }  // namespace burnish

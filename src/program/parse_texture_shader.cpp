@@ -44,6 +44,7 @@ class TextureShaderParser {
         m_word = word;
         m_known = true;
         check_sequence(token, word);
+        check_place(token, word.operation);
         m_token = token;
         TextureUnit unit;
         unit.operation = word.operation;
@@ -98,7 +99,14 @@ class TextureShaderParser {
                                           "front of it",
                                           quoted(token), group_word(*word.group, word.index - 1)));
         }
-        if (word.operation == TextureOperation::texture_brdf) check_brdf(token);
+    }
+
+    void check_place(const Token& token, TextureOperation operation) {
+        if (operation == TextureOperation::texture_brdf) check_brdf(token);
+        if (!replaces_depth(operation)) return;
+        if (std::exchange(m_replaces_depth, true))
+            m_reader.complain(token, fmt::format("{} replaces the depth, as an earlier unit does",
+                                                 quoted(token)));
     }
 
     void check_brdf(const Token& token) {
@@ -208,6 +216,7 @@ class TextureShaderParser {
     TextureShader& m_shader;
     std::size_t m_unit = 0;
     bool m_too_many = false;
+    bool m_replaces_depth = false;
     std::array<bool, kUnits> m_readable{};
     // The current statement.
     bool m_begun = false;  ///< it begins with a word

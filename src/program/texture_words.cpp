@@ -68,11 +68,9 @@ bool has_output(TextureOperation operation) {
         case TextureOperation::none:
         case TextureOperation::cull_fragment:
         case TextureOperation::dot_product:
-        case TextureOperation::dot_product_depth_replace:
-        case TextureOperation::dot_product_affine_depth_replace:
             return false;
         default:
-            return true;
+            return !replaces_depth(operation);
     }
 }
 

@@ -69,6 +69,9 @@ std::string_view texture_operation_name(TextureOperation operation);
 /// Whether it reads the texel of TextureUnit::previous.
 bool reads_previous(TextureOperation operation);
 
+/// Whether it gives the fragment another depth, which one unit may do.
+bool replaces_depth(TextureOperation operation);
+
 /// How a dot product reads an unsigned previous texel; signed texels are taken as they are.
 enum class DotMapping : std::uint8_t {
     unsigned_identity,
@@ -102,8 +105,8 @@ struct TextureShader {
     std::array<TextureUnit, kTextureShaderUnits> units;
 
     /// Throws Error{bad_program} for what `machine` cannot run: operations that it lacks, units
-    /// beyond its number, a previous unit that is not an earlier one. Rules that depend on the
-    /// formats of textures are not checked here.
+    /// beyond its number, a previous unit that is not an earlier one, depth replaced twice. Rules
+    /// that depend on the formats of textures are not checked here.
     void validate(const Machine& machine) const;
 
     friend bool operator==(const TextureShader&, const TextureShader&) = default;
