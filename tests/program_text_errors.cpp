@@ -167,7 +167,8 @@ TEST(ProgramTextErrors, SyntaxErrorsNameTheTokenAndTheExpectation) {
     expect_combiner_error(in_rgb("spare0 = expand @tex0;"), "found 'tex0', expected '('");
     expect_combiner_error(in_rgb("spare0 = expand(tex0@;"), "found ';', expected ')'");
     expect_combiner_error(in_rgb("spare0 = @lerp;"), "found 'lerp', expected a register");
-    expect_combiner_error(in_rgb("discard = tex0; discard = tex1; spare0 = sum@;"), "found ';', expected '('");
+    expect_combiner_error(in_rgb("discard = tex0; discard = tex1; spare0 = sum@;"),
+                          "found ';', expected '('");
     expect_combiner_error("!!RC1.0 @spare0 = tex0;", "found 'spare0', expected const0");
     expect_combiner_error("!!RC1.0 @}", "found '}', expected const0");
     expect_combiner_error("!!RC1.0 out.rgb = lerp(tex0, tex1@);", "found ')', expected ','");
