@@ -91,6 +91,13 @@ TEST(ProgramText, ComponentsByDefaultAndByName) {
     EXPECT_EQ(alpha("spare0 = fog.b;").a, blue(in(Register::fog)));
 }
 
+TEST(ProgramText, ZeroIsTheSameInEveryComponent) {
+    EXPECT_EQ(rgb("spare0 = zero.a * one.a;"), rgb("spare0 = zero;"));
+    EXPECT_EQ(alpha("spare0 = zero.b;"), alpha("spare0 = zero;"));
+    EXPECT_EQ(final_combiner("out.rgb = one.a; out.a = zero.b;"), final_combiner("out.rgb = one;"));
+    expect_combiner_error("!!RC1.0 { rgb { spare0 = @zero.b; } }", "component .b of zero");
+}
+
 TEST(ProgramText, DestinationsMayCarryTheirComponent) {
     EXPECT_EQ(rgb("spare0.rgb = tex0;"), rgb("spare0 = tex0;"));
     EXPECT_EQ(alpha("spare0.a = tex0;"), alpha("spare0 = tex0;"));

@@ -89,8 +89,7 @@ class PortionParser {
         const Token token = m_reader.peek();
         const Register out = take_destination(m_reader, m_dialect, m_place);
         const bool twice =
-            out != Register::discard &&
-            (out == m_portion.ab_out || out == m_portion.cd_out || out == m_portion.third_out);
+            out != Register::discard && (out == m_portion.ab_out || out == m_portion.cd_out);
         if (twice)
             m_reader.complain(token, fmt::format("{} is written twice in one portion", token.text));
         return twice ? Register::discard : out;

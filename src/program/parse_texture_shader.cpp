@@ -23,6 +23,10 @@ class TextureShaderParser {
         while (!m_reader.at_end()) {
             m_known = false;
             m_begun = m_reader.peek().kind == Token::Kind::word;
+            if (m_begun && m_unit == kUnits) {
+                complain_of_fifth();
+                break;
+            }
             m_reader.statement([this] { statement(); });
             if (m_begun) end_statement();
         }
@@ -37,9 +41,6 @@ class TextureShaderParser {
   private:
     void statement() {
         const Token token = m_reader.peek();
-        if (m_unit == kUnits && !std::exchange(m_too_many, true))
-            m_reader.complain(token, fmt::format("{} begins a fifth statement, there are {} units",
-                                                 quoted(token), kUnits));
         const TextureWord word = take_word();
         m_word = word;
         m_known = true;
@@ -52,7 +53,14 @@ class TextureShaderParser {
         arguments(word, unit);
         m_reader.expect(")");
         m_reader.expect_end();
-        if (m_unit < kUnits) m_shader.units[m_unit] = unit;
+        m_shader.units.at(m_unit) = unit;
+    }
+
+    /// Whatever follows has no unit.
+    void complain_of_fifth() {
+        m_reader.complain(m_reader.peek(),
+                          fmt::format("{} begins a fifth statement, there are {} units",
+                                      quoted(m_reader.peek()), kUnits));
     }
 
     /// What the statement, right or wrong, means for the next one. After a wrong one, anything may
@@ -63,10 +71,7 @@ class TextureShaderParser {
         m_group = open ? m_word : TextureWord{};
         m_group_token = m_token;
         m_lost = !m_known;
-        if (m_unit < kUnits) {
-            m_readable[m_unit] = !m_known || has_output(m_word.operation);
-            ++m_unit;
-        }
+        m_readable.at(m_unit++) = !m_known || has_output(m_word.operation);
     }
 
     TextureWord take_word() {
@@ -111,7 +116,7 @@ class TextureShaderParser {
 
     void check_brdf(const Token& token) {
         const bool ready = m_unit >= 2 && m_readable[m_unit - 1] && m_readable[m_unit - 2];
-        if (m_unit < kUnits && !ready)
+        if (!ready)
             m_reader.complain(token, fmt::format("{} in unit {}, expected two units with an output "
                                                  "in front of it",
                                                  quoted(token), m_unit));
@@ -215,7 +220,6 @@ class TextureShaderParser {
     Reader& m_reader;
     TextureShader& m_shader;
     std::size_t m_unit = 0;
-    bool m_too_many = false;
     bool m_replaces_depth = false;
     std::array<bool, kUnits> m_readable{};
     // The current statement.
