@@ -268,10 +268,10 @@ constexpr int kTexture = 256;                         // texels, both ways
 constexpr std::int32_t kPitch = 4 * (kTexture + 16);  // bytes
 
 void add_texels() {
-    static std::vector<std::int8_t> texels;
+    static std::vector<std::uint8_t> texels;
     Random random(4);
     texels.resize(static_cast<std::size_t>(kPitch * (kTexture + 1)));
-    for (std::int8_t& t : texels) t = static_cast<std::int8_t>(random.between(-128, 127));
+    for (std::uint8_t& t : texels) t = static_cast<std::uint8_t>(random.below(256));
     PacketMemory packet;
     // A quarter turn of the texture at one texel per pixel, as four blocks see it.
     for (int i = 0; i < kPacketSize; ++i) {
@@ -326,23 +326,19 @@ constexpr int kTrash = 30;
 
 /// Inputs in planes 0 .. 12, outputs from 14 on.
 PortionCtx portion(ProductKind ab, ProductKind cd, ThirdKind third) {
-    constexpr std::int16_t t = kTrash;
-    PortionCtx ctx{operand(0, 6),
-                   operand(3, 6),
-                   operand(6, 6),
-                   operand(9, 6),
-                   ab,
-                   cd,
-                   third,
-                   OutputScale::one,
-                   0,
-                   0,
-                   3,
-                   12,
-                   {14, 15, 16},
-                   {t, t, t},
-                   {t, t, t}};
+    PortionCtx ctx{};
+    ctx.a = operand(0, 6);
+    ctx.b = operand(3, 6);
+    ctx.c = operand(6, 6);
+    ctx.d = operand(9, 6);
+    ctx.ab = ab;
+    ctx.cd = cd;
+    ctx.third = third;
+    ctx.components = 3;
+    ctx.mux_plane = 12;
     for (int c = 0; c < 3; ++c) {
+        ctx.ab_out[c] = static_cast<std::int16_t>(14 + c);
+        ctx.cd_out[c] = ctx.third_out[c] = kTrash;
         const auto plane = static_cast<std::int16_t>(17 + c);
         if (third != ThirdKind::none)
             ctx.third_out[c] = plane;
@@ -374,6 +370,19 @@ void add_portions(const std::string& name, PacketStage<PortionCtx> stage,
                 portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::none), both);
     add_portion("sum", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum), both);
     add_portion("mux", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::mux), both);
+    // The two stages of the anisotropic lobe.
+    PortionCtx dots = portion(ProductKind::dot, ProductKind::dot, ThirdKind::none);
+    dots.a.mapping = dots.b.mapping = dots.c.mapping = dots.d.mapping = 2;
+    dots.d = dots.b;
+    dots.components = 1;
+    dots.scale = OutputScale::four;
+    add_portion("two_dots_of_expanded", dots, {.planes = {14, 17}});
+    PortionCtx squares = portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum);
+    squares.b = squares.a;
+    squares.d = squares.c;
+    squares.components = 1;
+    squares.ab_out[0] = kTrash;
+    add_portion("sum_of_squares", squares, {.planes = {17}});
 }
 
 void add_final(const std::string& name, PacketStage<FinalCtx> stage, const PacketMemory& packet) {

@@ -6,6 +6,7 @@
 #include <burnish/error.hpp>
 
 #include "geometry/clip.hpp"
+#include "machine/show_register.hpp"
 
 namespace burnish {
 
@@ -96,22 +97,6 @@ Light light_of(const Scene& scene) {
     return scene.lights.front();
 }
 
-ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps) {
-    static const Material kDefault;
-    const Material& material = object.material ? *object.material : kDefault;
-    if (material.program) return *material.program;
-    if (!std::holds_alternative<Mesh>(object.geometry)) {
-        throw Error(
-            ErrorCode::bad_program,
-            fmt::format(
-                "material '{}': a reflectance model needs a mesh, raw vertices need a program",
-                material.name));
-    }
-    const Light light = light_of(scene);
-    return compile_abp_modified(material, scene.machine, light.color * light.intensity,
-                                scene.ambient, maps);
-}
-
 void transform_mesh(Draw& draw, const FrameView& frame, const Object& object, const Mesh& mesh,
                     const KernelTable& kernels, WorkerPool& pool) {
     const glm::mat4 clip_from_object(frame.view.clip_from_world *
@@ -157,16 +142,39 @@ void transform_raw(Draw& draw, const FrameView& frame, const Object& object,
 
 }  // namespace
 
+ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps) {
+    static const Material kDefault;
+    const Material& material = object.material ? *object.material : kDefault;
+    if (material.program) return *material.program;
+    if (!std::holds_alternative<Mesh>(object.geometry)) {
+        throw Error(
+            ErrorCode::bad_program,
+            fmt::format(
+                "material '{}': a reflectance model needs a mesh, raw vertices need a program",
+                material.name));
+    }
+    const Light light = light_of(scene);
+    return compile_abp_modified(material, scene.machine, light.color * light.intensity,
+                                scene.ambient, maps);
+}
+
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {
-    const ProgramMaterial material = program_of(object, *frame.scene, maps);
+    ProgramMaterial program = program_of(object, *frame.scene, maps);
+    Wanted wanted;
+    if (frame.shown) wanted = show_register(program.combiners, *frame.shown, frame.format);
+    prepare_draw(draw, frame, object, program, wanted);
+}
+
+void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
+                  const ProgramMaterial& program, const Wanted& wanted) {
     const LightSpace space =
         light_space(light_of(*frame.scene), frame.view, object.world_from_object);
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
     draw.facing = facing_of(object.raster.cull);
     draw.depth = depth_rule(object.raster);
     draw.shading.space = space;
-    draw.shading.lit = {material.lit_tint, material.lit_base};
-    plan_shading(draw.shading, material, frame.scene->machine, mesh != nullptr);
+    draw.shading.lit = {program.lit_tint, program.lit_base};
+    plan_shading(draw.shading, program, frame.scene->machine, mesh != nullptr, wanted);
     if (mesh != nullptr) {
         draw.indices = mesh->indices();
         draw.shading.frames = mesh->frames();

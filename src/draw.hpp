@@ -1,7 +1,9 @@
 #pragma once
 
+#include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,10 +37,20 @@ struct FrameView {
     const Scene* scene;
     View view;
     Viewport viewport;
+    std::optional<ShownRegister> shown = {};
+    PixelFormat format = PixelFormat::rgba8;
 };
 
-/// Program, inputs, indices and raster state of `object`; no vertex is touched yet.
+/// What draws `object`: its program, or its model as a program for the scene's machine.
 /// Throws Error{bad_program} or {bad_option} for what cannot be drawn.
+ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps);
+
+/// Inputs, indices and raster state of `object` under `program`; no vertex is touched yet.
+/// Throws as program_of does.
+void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
+                  const ProgramMaterial& program, const Wanted& wanted);
+
+/// The same with the object's own program and what the frame shows of it.
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps);
 
 /// Vertices to the screen, and what they hand to the interpolators.

@@ -10,6 +10,7 @@
 #include "core/cpu.hpp"
 #include "draw.hpp"
 #include "image/tile_image.hpp"
+#include "machine/show_register.hpp"
 #include "raster/bin.hpp"
 #include "shade/packets.hpp"
 
@@ -54,7 +55,8 @@ struct Renderer::State {
           pool(options.threads),
           memory_cap(options.memory_cap) {}
 
-    void prepare(const Scene& scene, const Framebuffer& target);
+    void prepare(const Scene& scene, const Framebuffer& target,
+                 const std::optional<ShownRegister>& shown);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
@@ -92,14 +94,24 @@ int Renderer::threads() const noexcept {
     return m_state->pool.size();
 }
 
+FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
+    return render_shown(scene, target, std::nullopt);
+}
+
+FrameStats Renderer::render(const Scene& scene, Framebuffer& target, const ShownRegister& shown) {
+    require_showable(shown.reg, scene.machine);
+    return render_shown(scene, target, shown);
+}
+
 /// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
 /// the memory cap, as many as fit; then the tiles are drawn and the next ones follow.
-FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
+FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
+                                  const std::optional<ShownRegister>& shown) {
     State& s = *m_state;
     FrameStats stats;
     try {
         const auto start = Clock::now();
-        s.prepare(scene, target);
+        s.prepare(scene, target, shown);
         s.transform(scene);
         stats.geometry_ms = milliseconds_since(start);
         for (bool first_round = true; first_round || s.next_range < s.ranges.size();
@@ -125,11 +137,12 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
 }
 
 /// Camera, programs and raster state; the list of chunks.
-void Renderer::State::prepare(const Scene& scene, const Framebuffer& target) {
+void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
+                              const std::optional<ShownRegister>& shown) {
     scene.machine.validate();
     size = {target.width(), target.height()};
     frame = {&scene, make_view(scene.camera, size.width, size.height),
-             make_viewport(scene.machine, size.width, size.height)};
+             make_viewport(scene.machine, size.width, size.height), shown, target.format()};
     while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
     draws.resize(scene.objects.size());
     ranges.clear();

@@ -1,7 +1,8 @@
+// The command as a shell sees it: exit codes, one line per error, files.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <burnish/files.hpp>
 
+#include <burnish/files.hpp>
 #include <string>
 #include <vector>
 
@@ -9,22 +10,6 @@
 
 namespace burnish {
 namespace {
-
-class Command : public RunCommand {
-  protected:
-    void write_scene(const std::string& name, const std::string& more = "") {
-        write(path(name), R"(schema = 1
-[output]
-width = 40
-height = 30
-background = [0.2, 0.4, 0.6, 1.0]
-[[lights]]
-direction = [0.3, 0.8, 0.5]
-[[objects]]
-shape = "sphere"
-)" + more);
-    }
-};
 
 TEST_F(Command, HelpVersionAndInfoLoadNoImageLibrary) {
     for (const char* arguments :
@@ -43,7 +28,7 @@ TEST_F(Command, HelpListsTheCommandsThatAreThere) {
     const Result help = run("--help");
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");
-    for (const char* verb : {"render", "bake", "bench", "compile", "info"})
+    for (const char* verb : {"render", "trace", "bake", "bench", "compile", "info"})
         EXPECT_SAYS(help.out, verb);
     EXPECT_EQ(help.out.find("experiment"), std::string::npos);
     const Result render = run("render --help");

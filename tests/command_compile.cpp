@@ -4,10 +4,10 @@
 namespace burnish {
 namespace {
 
-class Compile : public RunCommand {
+class Compile : public Command {
   protected:
     void SetUp() override {
-        RunCommand::SetUp();
+        Command::SetUp();
         write(path("bump.rc"),
               "!!RC1.0\n"
               "const0 = (0.25, 0, 0, 1);\n"

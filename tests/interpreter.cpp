@@ -189,5 +189,87 @@ TEST(Interpreter, WideRegistersHoldTwoOnlyWherePortionsAllowIt) {
     EXPECT_EQ(trace[2][Register::spare1], (Codes{16384, 16384, -16384, 0}));
 }
 
+RealRegisters real_registers(const Reals& col0, const Reals& tex0 = {}) {
+    RealRegisters file;
+    file[Register::col0] = col0;
+    file[Register::tex0] = tex0;
+    return file;
+}
+
+void expect_reals(const Reals& got, const Reals& want) {
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(got[c], want[c], 1e-15) << "component " << c;
+}
+
+TEST(Interpreter, ExactArithmeticRoundsNothing) {
+    ProgramBuilder b;
+    b.stage()
+        .rgb()
+        .ab(mul(in(Register::col0), in(Register::tex0)), Register::spare0)
+        .scale(Scale::half);
+    b.alpha().ab(mul(alpha_of(Register::col0), alpha(one())), Register::spare0).bias();
+    CombinerProgram p = b.build();
+    p.final_combiner = show(Register::spare0);
+    const RealRegisters inputs = real_registers({0.1, 0.7, 1.0, 0.9}, {0.3, 0.9, 0.01, 0.0});
+    for (const Machine& machine : {kNv2a, kIdeal}) {
+        expect_reals(run_combiners_exactly(p, machine, inputs), {0.015, 0.315, 0.005, 0.4});
+    }
+}
+
+// 1/2 is 1/2, where the nine-bit machine has 128/255.
+TEST(Interpreter, ExactMappings) {
+    const double e = 0.3;
+    const std::array<double, kMappingCount> want{0.3, 0.7, -0.4, 0.4, -0.2, 0.2, 0.3, -0.3};
+    for (int m = 0; m < kMappingCount; ++m) {
+        ProgramBuilder b;
+        b.stage().rgb().ab(mul({Register::col0, static_cast<Mapping>(m)}, one()), Register::spare0);
+        std::vector<RealRegisters> trace;
+        run_combiners_exactly(b.build(), kNv2a, real_registers({e, e, e, e}), &trace);
+        EXPECT_NEAR(trace[1][Register::spare0][0], want[static_cast<std::size_t>(m)], 1e-15) << m;
+    }
+}
+
+TEST(Interpreter, ExactDotAndMuxAtOneHalf) {
+    ProgramBuilder b;
+    b.stage()
+        .rgb()
+        .ab(dot(in(Register::col0), in(Register::tex0)), Register::spare1)
+        .cd(mul(in(Register::tex0), one()))
+        .mux(Register::spare0);
+    CombinerProgram p = b.build();
+    std::vector<RealRegisters> trace;
+    RealRegisters inputs = real_registers({0.1, 0.2, 0.3, 1.0}, {0.4, 0.5, 0.6, 0.5});
+    run_combiners_exactly(p, kNv2a, inputs, &trace);
+    EXPECT_NEAR(trace[1][Register::spare1][1], 0.32, 1e-15);
+    EXPECT_EQ(trace[1][Register::spare0][1], 0.5) << "CD from 1/2 on";
+    inputs[Register::tex0][3] = 0.4999;
+    trace.clear();
+    run_combiners_exactly(p, kNv2a, inputs, &trace);
+    EXPECT_NEAR(trace[1][Register::spare0][1], 0.32, 1e-15) << "AB below";
+}
+
+// The same clamps: outputs at -1 and 1 or, wide, at the register's range; the colour sum at 2.
+TEST(Interpreter, ExactClampsAreThoseOfTheMachine) {
+    ProgramBuilder b;
+    b.stage().rgb().ab(mul(in(Register::col0), one()), Register::spare0).scale(Scale::four);
+    CombinerProgram p = b.build();
+    p.final_combiner.b.reg = Register::color_sum;
+    p.final_combiner.a = {Register::zero, Mapping::unsigned_invert, Component::rgb};
+    std::vector<RealRegisters> trace;
+    RealRegisters inputs = real_registers({0.9, -0.9, 0.2, 0.0});
+    inputs[Register::col1] = {1.0, 0.25, 0.75, 0.0};
+    expect_reals(run_combiners_exactly(p, kNv2a, inputs, &trace), {1.0, 0.25, 1.0, 0.0});
+    expect_reals(trace[1][Register::spare0], {1.0, -1.0, 0.8, 0.0});
+    expect_reals(trace[2][Register::color_sum], {2.0, 0.25, 1.55, 0.0});
+    p.stages[0].rgb.wide = true;
+    trace.clear();
+    run_combiners_exactly(p, kIdeal, inputs, &trace);
+    expect_reals(trace[1][Register::spare0], {32767.0 / 16384, -2.0, 0.8, 0.0});
+    expect_reals(trace[2][Register::color_sum], {32767.0 / 16384, 0.25, 1.55, 0.0});
+    p.final_combiner.clamp_color_sum = true;
+    trace.clear();
+    run_combiners_exactly(p, kIdeal, inputs, &trace);
+    expect_reals(trace[2][Register::color_sum], {1.0, 0.25, 1.0, 0.0});
+}
+
 }  // namespace
 }  // namespace burnish

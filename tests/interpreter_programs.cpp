@@ -49,7 +49,7 @@ struct ProgramPacket {
             for (std::size_t c = 0; c < 4; ++c) {
                 if (bound.input[r][c] < 0) continue;
                 for (std::size_t i = 0; i < inputs.size(); ++i)
-                    plane(bound.input[r][c])[i] = static_cast<std::int16_t>(inputs[i].codes[r][c]);
+                    plane(bound.input[r][c])[i] = static_cast<std::int16_t>(inputs[i].values[r][c]);
             }
         }
     }
@@ -66,9 +66,20 @@ std::string text(const Codes& codes) {
     return out.str();
 }
 
-void check_programs(const KernelTable& table, Machine machine, unsigned programs) {
+/// The machine with other choices of the nine-bit model, every other time.
+Machine with_choices(Random& random, Machine machine) {
+    if (machine.numbers != NumberModel::nine_bit || random.chance(2)) return machine;
+    machine.product_rounding = static_cast<ProductRounding>(random.below(3));
+    machine.expand = random.chance(2) ? ExpandRule::ideal : ExpandRule::hardware;
+    machine.halving = random.chance(2) ? Halving::down : Halving::half_up;
+    machine.lerp_rounding = random.chance(2) ? LerpRounding::each : LerpRounding::once;
+    return machine;
+}
+
+void check_programs(const KernelTable& table, const Machine& profile, unsigned programs) {
     for (unsigned seed = 0; seed < programs; ++seed) {
         Random random(seed);
+        const Machine machine = with_choices(random, profile);
         const CombinerProgram program = random_program(random, machine);
         const auto enabled = static_cast<std::uint32_t>(random.below(1 << machine.texture_units)) |
                              static_cast<std::uint32_t>(random.below(1 << machine.texture_units));

@@ -168,6 +168,8 @@ FinalCtx random_final(Random& random) {
     for (std::int16_t& plane : ctx.secondary)
         plane = static_cast<std::int16_t>(random.below(kInputs));
     ctx.clamp_color_sum = static_cast<std::uint8_t>(random.below(2));
+    ctx.complement_spare0 = static_cast<std::uint8_t>(random.chance(3) ? 1 : 0);
+    ctx.complement_secondary = static_cast<std::uint8_t>(random.chance(3) ? 1 : 0);
     for (Operand* o : {&ctx.b, &ctx.c, &ctx.d})
         if (random.chance(3)) read_instead(ctx, *o, FinalCtx::kColorSum);
     for (Operand* o : {&ctx.a, &ctx.b, &ctx.c, &ctx.d})
@@ -194,7 +196,12 @@ void check_random_finals(const KernelTable& table, FinalStage stage,
                     random.chance(3) ? random.pick(extremes) : random.between(low, high));
         }
         for (int variant = 0; variant < 25; ++variant) {
-            const FinalCtx ctx = random_final(random);
+            FinalCtx ctx = random_final(random);
+            if (stage == &KernelTable::final_nine_bit && random.chance(2)) {
+                ctx.rounding = random.pick(
+                    std::array{Rounding::nearest, Rounding::truncate, Rounding::shift8});
+                ctx.round_each = static_cast<std::uint8_t>(random.below(2));
+            }
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFinalWrites), "")
                 << table.isa << " final, seed " << seed << ", variant " << variant;
         }
@@ -212,6 +219,19 @@ TEST_P(KernelTest, WideFinalCombinersOfEveryKind) {
                         32767);
 }
 
+/// In any order, one after the other, or so but for a few that changed places.
+void arrange_pixels(PacketMemory& packet, Random& random, int way) {
+    if (way % 3 == 0) return packet.shuffle_pixels(random);
+    const int first = random.between(0, kTilePixels - kPacketSize);
+    for (int i = 0; i < kPacketSize; ++i)
+        packet.pixels[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(first + i);
+    if (way % 3 == 1) return;
+    for (int n = 0; n < 10; ++n) {
+        const auto i = static_cast<std::size_t>(random.below(kPacketSize));
+        std::swap(packet.pixels[i], packet.pixels[std::min<std::size_t>(i + 3, kPacketSize - 1)]);
+    }
+}
+
 /// Bytes of a tile before and after: only the packet's pixels may change.
 template <class Codes>
 void check_store(const KernelTable& table,
@@ -223,7 +243,7 @@ void check_store(const KernelTable& table,
         for (int first = 0; first <= last_code; first += 64) {
             PacketMemory packet;
             packet.count = first % 3 == 0 ? kPacketSize : random.between(1, kPacketSize);
-            packet.shuffle_pixels(random);
+            arrange_pixels(packet, random, first / 64);
             for (int c = 0; c < 4; ++c)
                 for (int i = 0; i < packet.count; ++i)
                     packet.plane(5 + c)[i] =
@@ -251,6 +271,34 @@ TEST_P(KernelTest, NineBitStoreOfEveryCode) {
 TEST_P(KernelTest, WideStoreOfEveryCode) {
     check_store(table(), &KernelTable::store_wide, 16384,
                 [](int i, int c) { return c == 1 ? 16384 - i % 16385 : (i + 4096 * c) % 16385; });
+}
+
+/// Floats take whole registers, signs included.
+void check_float_store(const KernelTable& table,
+                       void (*KernelTable::*stage)(Packet&, const StoreCtx&) noexcept, int low,
+                       int high) {
+    Random random(1);
+    for (int first = low; first <= high; first += kPacketSize / 2) {
+        PacketMemory packet;
+        packet.count = kPacketSize - 1;
+        packet.shuffle_pixels(random);
+        for (int c = 0; c < 4; ++c)
+            for (int i = 0; i < packet.count; ++i)
+                packet.plane(5 + c)[i] = static_cast<std::int16_t>(std::min(first + i, high));
+        AlignedVector<float> got(std::size_t{4} * kTilePixels), want = got;
+        StoreCtx ctx{{5, 6, 7, 8}, StoreFormat::rgba32f, got.data()};
+        Packet view = packet.view();
+        (table.*stage)(view, ctx);
+        ctx.tile = want.data();
+        (table_reference().*stage)(view, ctx);
+        for (std::size_t i = 0; i < got.size(); ++i)
+            ASSERT_EQ(got[i], want[i]) << table.isa << ", channel " << i << ", from " << first;
+    }
+}
+
+TEST_P(KernelTest, FloatStoreOfEveryRegisterCode) {
+    check_float_store(table(), &KernelTable::store_nine_bit, -256, 255);
+    check_float_store(table(), &KernelTable::store_wide, -32768, 32767);
 }
 
 }  // namespace

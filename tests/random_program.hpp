@@ -80,6 +80,22 @@ inline Input random_final_input(Random& random, const Machine& machine, char slo
     return input;
 }
 
+/// Switches of the hardware that no text syntax has.
+inline void add_switches(Random& random, const Machine& machine, CombinerProgram& p) {
+    if (machine.numbers == NumberModel::nine_bit && random.chance(4)) p.mux_bit = MuxBit::lsb;
+    p.final_combiner.complement_spare0 = random.chance(4);
+    p.final_combiner.complement_secondary = random.chance(4);
+    for (GeneralStage& stage : p.stages) {
+        const Portion& a = stage.alpha;
+        const auto may_get_blue = [&](Register out) {
+            return random.chance(4) && out != Register::discard && out != a.ab_out &&
+                   out != a.cd_out && out != a.third_out;
+        };
+        stage.rgb.ab_blue_to_alpha = may_get_blue(stage.rgb.ab_out);
+        stage.rgb.cd_blue_to_alpha = may_get_blue(stage.rgb.cd_out);
+    }
+}
+
 /// Any program that `machine` runs, fog and constants beyond [0, 1] included; no fetches.
 inline CombinerProgram random_program(Random& random, const Machine& machine) {
     CombinerProgram p;
@@ -98,6 +114,7 @@ inline CombinerProgram random_program(Random& random, const Machine& machine) {
     if (random.chance(2)) f.d = {Register::spare0, Mapping::unsigned_identity, Component::rgb};
     if (random.chance(2)) f.g = {Register::spare0, Mapping::unsigned_identity, Component::alpha};
     f.clamp_color_sum = random.chance(2);
+    add_switches(random, machine, p);
     p.const0 = random_constant(random);
     p.const1 = random_constant(random);
     p.fog = random_constant(random);
@@ -123,7 +140,7 @@ inline std::vector<StageFetch> random_fetches(Random& random, const Machine& mac
 }
 
 /// `program` as a text can say it: constants within [0, 1], no fog, zero with the component that
-/// its place has by default, at least one stage.
+/// its place has by default, at least one stage, no switches.
 inline CombinerProgram sayable(CombinerProgram program) {
     const auto plain = [](std::initializer_list<Input*> inputs, Component own) {
         for (Input* input : inputs) {
@@ -146,6 +163,11 @@ inline CombinerProgram sayable(CombinerProgram program) {
     clamp(program.const0);
     clamp(program.const1);
     program.fog = glm::vec4(0.0F);
+    program.mux_bit = MuxBit::msb;
+    f.complement_spare0 = f.complement_secondary = false;
+    for (GeneralStage& stage : program.stages) {
+        stage.rgb.ab_blue_to_alpha = stage.rgb.cd_blue_to_alpha = false;
+    }
     return program;
 }
 

@@ -260,8 +260,8 @@ TEST_P(ReferencePixels, AddressesInARowOfFourTexels) {
 
 TEST_P(ReferencePixels, FilterRoundsAcrossThenDown) {
     // Channels: corners (0, 1; 0, 0), (0, 255; 0, 255), white, and 128 everywhere; all weights 1/2.
-    const std::array<std::int8_t, 16> texels{-128, -128, 127, 0, -127, 127, 127, 0,
-                                             -128, -128, 127, 0, -128, 127, 127, 0};
+    const std::array<std::uint8_t, 16> texels{0, 0, 255, 128, 1, 255, 255, 128,
+                                              0, 0, 255, 128, 0, 255, 255, 128};
     PacketMemory packet;
     std::fill(packet.texel.begin(), packet.texel.end(), 0);
     std::fill(packet.weight_x.begin(), packet.weight_x.end(), std::int16_t{128});
@@ -311,6 +311,15 @@ TEST_P(ReferencePixels, PixelsInThreeFormats) {
     table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba32f, floats.data()});
     // 127.5 and 32767.5 round up; 33 is 0.514 of a byte and 131.998 of a word.
     expect({0, 128, 1, 255}, {0, 32768, 132, 65535}, {0.0F, 0.5F, 33.0F / 16384, 1.0F});
+    // Floats show registers, too, below 0 and above 1.
+    packet.plane(0)[0] = -256;
+    packet.plane(4)[0] = -32768;
+    packet.plane(5)[0] = 32767;
+    table().store_nine_bit(view, {{0, 1, 2, 3}, StoreFormat::rgba32f, floats.data()});
+    EXPECT_EQ(floats[28], -256.0F / 255);
+    table().store_wide(view, {{4, 5, 6, 7}, StoreFormat::rgba32f, floats.data()});
+    EXPECT_EQ(floats[28], -2.0F);
+    EXPECT_EQ(floats[29], 32767.0F / 16384);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 
 #include "tests/scratch_directory.hpp"
 
-namespace burnish {
-
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
+namespace burnish {
+
 /// Runs the real command in a directory of its own.
-class RunCommand : public ScratchDirectory {
+class Command : public ScratchDirectory {
   protected:
     struct Result {
         int code = -1;
@@ -47,6 +47,19 @@ class RunCommand : public ScratchDirectory {
         EXPECT_SAYS(result.err, part);
         EXPECT_EQ(result.out, "") << arguments;
         EXPECT_EQ(entries(), before) << arguments;
+    }
+
+    void write_scene(const std::string& name, const std::string& more = "") {
+        write(path(name), R"(schema = 1
+[output]
+width = 40
+height = 30
+background = [0.2, 0.4, 0.6, 1.0]
+[[lights]]
+direction = [0.3, 0.8, 0.5]
+[[objects]]
+shape = "sphere"
+)" + more);
     }
 };
 

@@ -90,24 +90,50 @@ inline Scene million() {
     return scene;
 }
 
+/// A strongly coloured map times n.l, and a little of it without.
+inline std::shared_ptr<Material> painted(std::array<int, 4> base) {
+    using namespace combine;
+    ProgramBuilder p;
+    p.constants({0.3F, 0.3F, 0.3F, 0.0F}, {});
+    p.stage()
+        .rgb()
+        .ab(mul(in(tex(0)), alpha(in(Register::col0))))
+        .cd(mul(in(tex(0)), in(Register::const0)))
+        .sum(Register::spare0);
+    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::spare0), raw(Register::zero));
+    p.out_alpha(alpha(one()));
+    auto material = std::make_shared<Material>();
+    material->name = "test-painted";
+    material->program = ProgramMaterial{};
+    material->program->combiners = p.build();
+    material->program->units = {streaks(96, 64, base, 150)};
+    material->program->col0_rgb = ColorInput::half_tangent;
+    material->program->col0_a = ColorInput::n_dot_l;
+    return material;
+}
+
 /// A floor that passes under the camera and behind it, a ball cut by the near plane, and a wall so
 /// close to the eye and so wide that its far corners leave the guard band.
 inline Scene near_plane() {
     Scene scene = lit_scene(machine_profile("ideal"), 300, 200);
+    scene.lights[0].position = {0.5F, 0.6F, 0.9F};
     scene.camera.position = {0.0F, 0.6F, 1.0F};
     scene.camera.focal_point = {0.0F, 0.3F, -3.0F};
     scene.camera.near = 0.05F;
-    const auto material = brushed();
-    scene.objects.push_back({Mesh(shapes::plane(7, 5)),
-                             material,
+    const auto tiled = [](MeshData data, float times) {
+        for (glm::vec2& uv : data.uvs) uv *= times;
+        return Mesh(data);
+    };
+    scene.objects.push_back({tiled(shapes::plane(7, 5), 3.0F),
+                             painted({210, 150, 90, 255}),
                              placement({0.0F, -0.2F, 0.0F}, {1.0F, 0.0F, 0.0F}, -90.0F, 60.0F),
                              {}});
     scene.objects.push_back({Mesh(shapes::sphere(24, 12)),
-                             material,
+                             painted({110, 200, 140, 255}),
                              placement({-0.11F, 0.52F, 0.88F}, {0.0F, 1.0F, 0.0F}, 20.0F, 0.09F),
                              {}});
-    scene.objects.push_back({Mesh(shapes::plane(3, 3)),
-                             material,
+    scene.objects.push_back({tiled(shapes::plane(3, 3), 40.0F),
+                             painted({120, 140, 220, 255}),
                              placement({150.1F, 100.5F, 0.4F}, {0.0F, 1.0F, 0.0F}, -0.05F, 300.0F),
                              {.depth_test = DepthTest::lequal}});
     return scene;

@@ -62,6 +62,18 @@ glm::ivec2 parse_size(const std::string& text) {
         fmt::format("--size {}, expected WIDTHxHEIGHT, each 1 .. {}", text, Framebuffer::kMaxSize));
 }
 
+glm::ivec2 parse_pixel(const std::string& text) {
+    glm::ivec2 pixel{0, 0};
+    const char* const end = text.data() + text.size();
+    const auto [comma, bad_x] = std::from_chars(text.data(), end, pixel.x);
+    if (bad_x == std::errc() && comma != end && *comma == ',') {
+        const auto [stop, bad_y] = std::from_chars(comma + 1, end, pixel.y);
+        if (bad_y == std::errc() && stop == end && pixel.x >= 0 && pixel.y >= 0) return pixel;
+    }
+    fail(fmt::format("--pixel {}, expected X,Y: column and row, from 0,0 in the upper left corner",
+                     text));
+}
+
 Light parse_light(const std::string& text) {
     const std::vector<float> v = parse_numbers("--light", text, 3, 4);
     Light light;
@@ -90,6 +102,43 @@ std::string known_word(const std::string& option, const std::string& word,
         if (name == word) return word;
     }
     fail(fmt::format("{} {}, {}", option, word, expected_one_of(word, known)));
+}
+
+Register parse_register(const std::string& name) {
+    std::vector<std::string_view> known;
+    for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
+        const auto reg = static_cast<Register>(r);
+        if (register_name(reg) == name) return reg;
+        known.push_back(register_name(reg));
+    }
+    fail(fmt::format("--aov: unknown register '{}', {}", name, expected_one_of(name, known)));
+}
+
+/// register:NAME, register:NAME@STAGE, register:NAME@inputs or register:NAME@final.
+ShownRegister parse_aov(const std::string& text) {
+    constexpr std::string_view kKind = "register:";
+    if (!text.starts_with(kKind)) {
+        fail(fmt::format("--aov {}, expected register:NAME or register:NAME@STAGE", text));
+    }
+    const std::string_view rest = std::string_view(text).substr(kKind.size());
+    const std::size_t at = rest.find('@');
+    ShownRegister shown{.reg = parse_register(std::string(rest.substr(0, at)))};
+    if (at == std::string_view::npos) return shown;
+    const std::string_view place = rest.substr(at + 1);
+    if (place == "final") return shown;
+    if (place == "inputs") {
+        shown.stages = 0;
+        return shown;
+    }
+    std::size_t stage = 0;
+    const char* const end = place.data() + place.size();
+    const auto [stop, failure] = std::from_chars(place.data(), end, stage);
+    if (failure != std::errc() || stop != end || stage >= ShownRegister::kAllStages) {
+        fail(fmt::format("--aov {}, expected a stage of 0 .. {}, inputs or final after @", text,
+                         ShownRegister::kAllStages - 1));
+    }
+    shown.stages = stage + 1;
+    return shown;
 }
 
 void add_camera_options(CLI::App& verb, CameraOptions& camera) {
@@ -188,6 +237,20 @@ void add_render(CLI::App& verb, RenderOptions& options) {
             },
             "Print counts and times of the frame: text or json")
         ->type_name("FORMAT");
+    verb.add_option_function<std::string>(
+            "--aov", [&options](const std::string& text) { options.shown = parse_aov(text); },
+            "A register as the picture, e.g. register:spare0@1 after stage 1, ...@inputs, @final")
+        ->type_name("WHAT");
+}
+
+void add_trace(CLI::App& verb, TraceOptions& options) {
+    add_picture_options(verb, options.picture);
+    verb.add_option_function<std::string>(
+            "--pixel", [&options](const std::string& text) { options.pixel = parse_pixel(text); },
+            "Column and row of the pixel; 0,0 is the upper left corner")
+        ->required()
+        ->type_name("X,Y");
+    verb.add_flag("--json", options.json, "Print JSON");
 }
 
 void add_bench(CLI::App& verb, BenchOptions& options) {
@@ -239,12 +302,15 @@ void add_bake_brushed(CLI::App& verb, BakeBrushedOptions& options) {
 struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
     RenderOptions render;
+    TraceOptions trace;
     BenchOptions bench;
     CompileOptions compile;
     InfoOptions info;
     BakeBrushedOptions brushed;
     BakeMeshOptions mesh;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
+    CLI::App* trace_verb =
+        app.add_subcommand("trace", "Every register after every stage at one pixel");
     CLI::App* bake_verb = app.add_subcommand("bake", "Material maps and test meshes as files");
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
@@ -258,6 +324,7 @@ struct Parser {
         app.set_version_flag("--version", "burnish " BURNISH_VERSION);
         bake_verb->require_subcommand(1);
         add_render(*render_verb, render);
+        add_trace(*trace_verb, trace);
         add_bench(*bench_verb, bench);
         add_compile(*compile_verb, compile);
         info_verb->add_flag("--json", info.json, "Print JSON");
@@ -267,6 +334,7 @@ struct Parser {
 
     Command chosen() const {
         if (render_verb->parsed()) return render;
+        if (trace_verb->parsed()) return trace;
         if (bench_verb->parsed()) return bench;
         if (compile_verb->parsed()) return compile;
         if (info_verb->parsed()) return info;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/machine.hpp>
+#include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -20,7 +21,7 @@ struct CameraOptions {
     float zoom = 1.0F;       ///< divides the view angle
 };
 
-/// Common to render and bench: what is drawn, and how.
+/// Common to render, trace and bench: what is drawn, and how.
 struct PictureOptions {
     std::filesystem::path input;
     std::vector<std::string> overrides;  ///< -D
@@ -44,6 +45,13 @@ struct RenderOptions {
     int samples = 1;     ///< per pixel: a square number
     int turntable = 0;   ///< frames of one turn; 0: a single picture
     StatsFormat stats = StatsFormat::none;
+    std::optional<ShownRegister> shown;  ///< --aov register:...
+};
+
+struct TraceOptions {
+    PictureOptions picture;
+    glm::ivec2 pixel{0, 0};  ///< not negative
+    bool json = false;
 };
 
 struct BenchOptions {
@@ -80,8 +88,8 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, BenchOptions, CompileOptions, InfoOptions,
-                             BakeBrushedOptions, BakeMeshOptions>;
+using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
+                             InfoOptions, BakeBrushedOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

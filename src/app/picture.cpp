@@ -102,9 +102,10 @@ Renderer make_renderer(const PictureOptions& options) {
     return Renderer(renderer);
 }
 
-FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target) {
+FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,
+                const std::optional<ShownRegister>& shown) {
     try {
-        return renderer.render(scene, target);
+        return shown ? renderer.render(scene, target, *shown) : renderer.render(scene, target);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_option) throw;
         throw Error(ErrorCode::bad_input, error.what());

@@ -15,7 +15,8 @@ Scene load_picture(const PictureOptions& options);
 Renderer make_renderer(const PictureOptions& options);
 
 /// Renders; what the scene cannot do counts as bad input, not as wrong usage.
-FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target);
+FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,
+                const std::optional<ShownRegister>& shown = {});
 
 /// The camera turned about its focal point by `degrees` around its view-up direction.
 Camera turned(const Camera& camera, float degrees);

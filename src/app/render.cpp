@@ -34,6 +34,13 @@ std::string output_pattern(const RenderOptions& options) {
     return pattern;
 }
 
+/// A file of floats can hold a register as it is, signs and all.
+PixelFormat frame_format(const RenderOptions& options, const Scene& scene,
+                         const std::string& pattern) {
+    const bool floats = std::filesystem::path(pattern).extension() == ".exr";
+    return options.shown && floats ? PixelFormat::rgba32f : scene.format;
+}
+
 int samples_side(int samples) {
     int side = 1;
     while (side * side < samples) ++side;
@@ -92,7 +99,7 @@ void run(const RenderOptions& options) {
     const Scene scene = load_picture(options.picture);
     const int side = samples_side(options.samples);
     const int frames = options.turntable > 0 ? options.turntable : 1;
-    Framebuffer frame(scene.width, scene.height, scene.format);
+    Framebuffer frame(scene.width, scene.height, frame_format(options, scene, pattern));
     Progress progress(frames, options.picture.quiet);
     for (int i = 0; i < frames; ++i) {
         Scene turn = scene;
@@ -100,7 +107,7 @@ void run(const RenderOptions& options) {
             turn.camera =
                 turned(scene.camera, 360.0F * static_cast<float>(i) / static_cast<float>(frames));
         const Clock::time_point start = Clock::now();
-        const FrameStats stats = draw_supersampled(renderer, turn, side, frame);
+        const FrameStats stats = draw_supersampled(renderer, turn, side, frame, options.shown);
         const double frame_ms = ms_since(start);
         const std::string name = numbered_name(pattern, i);
         save_image(frame, name);

@@ -78,9 +78,9 @@ void shrink(const Framebuffer& large, int side, Framebuffer& target) {
 
 }  // namespace
 
-FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side,
-                             Framebuffer& target) {
-    if (side == 1) return draw(renderer, scene, target);
+FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side, Framebuffer& target,
+                             const std::optional<ShownRegister>& shown) {
+    if (side == 1) return draw(renderer, scene, target, shown);
     if (target.width() * side > Framebuffer::kMaxSize ||
         target.height() * side > Framebuffer::kMaxSize)
         throw Error(
@@ -92,7 +92,7 @@ FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side,
     const PixelFormat format =
         target.format() == PixelFormat::rgba32f ? PixelFormat::rgba32f : PixelFormat::rgba16;
     Framebuffer large(target.width() * side, target.height() * side, format);
-    const FrameStats stats = draw(renderer, enlarged(scene, side), large);
+    const FrameStats stats = draw(renderer, enlarged(scene, side), large, shown);
     shrink(large, side, target);
     return stats;
 }

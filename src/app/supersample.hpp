@@ -8,6 +8,8 @@ namespace burnish::app {
 /// Renders `scene` with `side` x `side` samples per pixel into `target` by a box filter: at 16 bits
 /// per channel (floats for a float target), rounded to nearest once. Vertices in window space are
 /// scaled along. Throws Error{limit} if the larger picture exceeds Framebuffer::kMaxSize.
-FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side, Framebuffer& target);
+/// `shown` is drawn in place of colours.
+FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side, Framebuffer& target,
+                             const std::optional<ShownRegister>& shown = {});
 
 }  // namespace burnish::app

@@ -21,6 +21,7 @@ struct BadInput : std::exception {
 
 void run(const PrintText& text);
 void run(const RenderOptions& options);
+void run(const TraceOptions& options);
 void run(const BenchOptions& options);
 void run(const CompileOptions& options);
 void run(const InfoOptions& options);

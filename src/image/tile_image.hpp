@@ -24,6 +24,7 @@ class TileImage {
     void resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
 
     [[nodiscard]] std::byte* pixels() { return m_pixels.data(); }
+    [[nodiscard]] const std::byte* pixels() const { return m_pixels.data(); }
     [[nodiscard]] PixelFormat format() const { return m_format; }
 
   private:

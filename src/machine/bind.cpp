@@ -47,16 +47,24 @@ ProductKind kind_of(Product p) {
 class Binder {
   public:
     Binder(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units)
-        : m_program(program), m_numbers(machine.numbers) {
+        : m_program(program),
+          m_machine(machine),
+          m_numbers(machine.numbers),
+          m_stage_count(static_cast<int>(program.stages.size())) {
         m_one = m_numbers == NumberModel::nine_bit ? 255 : 16384;
         for (auto& components : m_bound.input) components.fill(-1);
         set_initial_registers(enabled_units);
     }
 
-    BoundProgram bind() {
+    BoundProgram bind(const Wanted& wanted) {
         for (std::size_t s = 0; s < m_program.stages.size(); ++s) add_stage(static_cast<int>(s));
-        read_final();
-        drop_unread();
+        if (wanted.reg) {
+            if (wanted.coded) add_coding(*wanted.reg);
+            m_shown = at(wanted.coded ? Register::spare0 : *wanted.reg);
+        } else {
+            read_final();
+        }
+        if (!wanted.everything) drop_unread();
         allocate();
         return std::move(m_bound);
     }
@@ -166,6 +174,8 @@ class Binder {
         set(op.source->ab_out, op.ab_out);
         set(op.source->cd_out, op.cd_out);
         set(op.source->third_out, op.third_out);
+        if (op.source->ab_blue_to_alpha) at(op.source->ab_out)[3] = op.ab_out[2];
+        if (op.source->cd_blue_to_alpha) at(op.source->cd_out)[3] = op.cd_out[2];
     }
 
     void add_stage(int s) {
@@ -179,6 +189,28 @@ class Binder {
         if (alpha) write(*alpha, true);
         if (rgb) m_operations.push_back(*rgb);
         if (alpha) m_operations.push_back(*alpha);
+    }
+
+    // --- a register instead of the final combiner
+
+    /// spare0 = x/2 + 1/2, then without what lies below 0: two stages more.
+    void add_coding(Register reg) {
+        const Input one{Register::zero, Mapping::unsigned_invert, Component::rgb};
+        m_coding[0].a = {reg, Mapping::signed_identity, Component::rgb};
+        m_coding[0].b = m_coding[0].c = m_coding[0].d = one;
+        m_coding[0].third_out = Register::spare0;
+        m_coding[0].scale = Scale::half;
+        m_coding[1].a = {Register::spare0, Mapping::unsigned_identity, Component::rgb};
+        m_coding[1].b = one;
+        m_coding[1].ab_out = Register::spare0;
+        for (const Portion& portion : m_coding) {
+            const Operation rgb = operation(portion, false, m_stage_count);
+            const Operation alpha = operation(portion, true, m_stage_count++);
+            write(rgb, false);
+            write(alpha, true);
+            m_operations.push_back(rgb);
+            m_operations.push_back(alpha);
+        }
     }
 
     // --- final combiner: always the global constants
@@ -219,6 +251,10 @@ class Binder {
 
     template <class F>
     void for_each_final_read(F&& f) const {
+        if (m_shown) {
+            for (const Value v : *m_shown) f(v);
+            return;
+        }
         for (const OperandValues& o : m_final) {
             for (const Value v : o.value) f(v);
         }
@@ -267,7 +303,7 @@ class Binder {
     void allocate() {
         m_plane.assign(static_cast<std::size_t>(m_value_count), -1);
         m_last_use.assign(static_cast<std::size_t>(m_value_count), -1);
-        const int end = static_cast<int>(m_program.stages.size());
+        const int end = m_stage_count;
         for (const Operation& op : m_operations) {
             for_each_read(op, [&](Value v) { m_last_use[static_cast<std::size_t>(v)] = op.stage; });
         }
@@ -285,7 +321,7 @@ class Binder {
                 for_each_read(m_operations[k], [&](Value v) { release(v, stage); });
             }
         }
-        emit_final();
+        m_shown ? emit_shown() : emit_final();
         m_bound.numbers = m_numbers;
     }
 
@@ -294,8 +330,7 @@ class Binder {
             if (m_last_use[static_cast<std::size_t>(value)] < 0) continue;
             m_plane[static_cast<std::size_t>(value)] = m_bound.plane_count++;
             m_bound.constants.push_back(static_cast<std::int16_t>(code));
-            m_last_use[static_cast<std::size_t>(value)] =
-                static_cast<int>(m_program.stages.size()) + 1;
+            m_last_use[static_cast<std::size_t>(value)] = m_stage_count + 1;
         }
     }
 
@@ -329,6 +364,18 @@ class Binder {
         last = -1;  // once, however often it was read
     }
 
+    [[nodiscard]] Rounding rounding() const {
+        switch (m_machine.product_rounding) {
+            case ProductRounding::nearest:
+                break;
+            case ProductRounding::truncate:
+                return Rounding::truncate;
+            case ProductRounding::shift8:
+                return Rounding::shift8;
+        }
+        return Rounding::nearest;
+    }
+
     Operand operand(const OperandValues& o) const {
         Operand result{};
         for (std::size_t c = 0; c < 3; ++c) {
@@ -336,6 +383,11 @@ class Binder {
             result.plane[c] = static_cast<std::int16_t>(std::max(plane, 0));
         }
         result.mapping = static_cast<std::uint8_t>(o.mapping);
+        const bool has_half =
+            o.mapping >= Mapping::expand && o.mapping <= Mapping::half_bias_negate;
+        if (has_half && m_machine.expand == ExpandRule::ideal) {
+            result.mapping = static_cast<std::uint8_t>(result.mapping + Operand::kIdealHalf);
+        }
         return result;
     }
 
@@ -361,6 +413,9 @@ class Binder {
         ctx.cd = op.cd;
         ctx.third = op.third;
         ctx.scale = static_cast<OutputScale>(op.source->scale);
+        ctx.rounding = rounding();
+        ctx.halve_down = m_machine.halving == Halving::down ? 1 : 0;
+        ctx.mux_lsb = m_program.mux_bit == MuxBit::lsb ? 1 : 0;
         ctx.bias_minus_half = op.source->bias_minus_half ? 1 : 0;
         ctx.wide = op.source->wide ? 1 : 0;
         ctx.components = static_cast<std::uint8_t>(op.components);
@@ -389,14 +444,29 @@ class Binder {
         const Operand spare0 = operand(m_sum[0]), secondary = operand(m_sum[1]);
         std::copy(std::begin(spare0.plane), std::end(spare0.plane), ctx.spare0);
         std::copy(std::begin(secondary.plane), std::end(secondary.plane), ctx.secondary);
+        ctx.rounding = rounding();
+        ctx.round_each = m_machine.lerp_rounding == LerpRounding::each ? 1 : 0;
+        ctx.complement_spare0 = f.complement_spare0 ? 1 : 0;
+        ctx.complement_secondary = f.complement_secondary ? 1 : 0;
         ctx.clamp_color_sum = f.clamp_color_sum ? 1 : 0;
         ctx.uses_color_sum = m_uses_sum ? 1 : 0;
         ctx.uses_final_product = m_uses_product ? 1 : 0;
         for (std::int16_t& plane : ctx.out) plane = static_cast<std::int16_t>(take_plane());
+        std::copy(std::begin(ctx.out), std::end(ctx.out), m_bound.result.begin());
+    }
+
+    void emit_shown() {
+        m_bound.has_final = false;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const int plane = m_plane[static_cast<std::size_t>((*m_shown)[c])];
+            m_bound.result[c] = static_cast<std::int16_t>(plane);
+        }
     }
 
     const CombinerProgram& m_program;
+    const Machine& m_machine;
     NumberModel m_numbers;
+    int m_stage_count;
     int m_one = 0;
     std::array<Components, kRegisterCount> m_registers;
     int m_value_count = 0;
@@ -406,6 +476,8 @@ class Binder {
     std::array<OperandValues, 7> m_final;  // A .. G
     std::array<OperandValues, 2> m_sum;    // spare0, col1
     bool m_uses_sum = false, m_uses_product = false;
+    std::array<Portion, 2> m_coding;
+    std::optional<Components> m_shown;     ///< values of a register that is the result
     std::vector<int> m_plane, m_last_use;  // by value
     std::vector<int> m_free, m_unread;
     int m_trash = 0;
@@ -420,10 +492,10 @@ bool BoundProgram::reads(Register r) const {
 }
 
 BoundProgram bind(const CombinerProgram& program, const Machine& machine,
-                  std::uint32_t enabled_units) {
+                  std::uint32_t enabled_units, const Wanted& wanted) {
     program.validate(machine);
     require_no_fetches(program);
-    return Binder(program, machine, enabled_units).bind();
+    return Binder(program, machine, enabled_units).bind(wanted);
 }
 
 void load_constants(const BoundProgram& program, Packet& packet) {
@@ -435,14 +507,11 @@ void load_constants(const BoundProgram& program, Packet& packet) {
 }
 
 void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet) {
-    if (program.numbers == NumberModel::nine_bit) {
-        for (const PortionCtx& portion : program.portions)
-            kernels.portion_nine_bit(packet, portion);
-        kernels.final_nine_bit(packet, program.final_combiner);
-    } else {
-        for (const PortionCtx& portion : program.portions) kernels.portion_wide(packet, portion);
-        kernels.final_wide(packet, program.final_combiner);
-    }
+    const bool nine_bit = program.numbers == NumberModel::nine_bit;
+    const auto portion = nine_bit ? kernels.portion_nine_bit : kernels.portion_wide;
+    for (const PortionCtx& ctx : program.portions) portion(packet, ctx);
+    if (!program.has_final) return;
+    (nine_bit ? kernels.final_nine_bit : kernels.final_wide)(packet, program.final_combiner);
 }
 
 }  // namespace burnish

@@ -4,6 +4,7 @@
 #include <burnish/combiner.hpp>
 #include <burnish/machine.hpp>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -29,21 +30,31 @@ struct BoundProgram {
     /// whichever of them are read.
     std::array<std::array<int, 4>, kRegisterCount> input;
     std::vector<PortionCtx> portions;
-    FinalCtx final_combiner{};  ///< its `out` planes hold the result
+    bool has_final = true;
+    FinalCtx final_combiner{};
+    std::array<std::int16_t, 4> result{};  ///< planes of r, g, b, a
 
     [[nodiscard]] bool reads(Register r) const;
+};
+
+/// What is wanted of a program; the inputs that it asks for follow from that.
+struct Wanted {
+    bool everything = false;  ///< also results that nothing reads
+    /// This register after the last general stage instead of the final combiner's result.
+    std::optional<Register> reg = {};
+    bool coded = false;  ///< the register as x/2 + 1/2, 0 .. 1, for frames without signs
 };
 
 /// @param enabled_units bit i: texture unit i delivers texels; others read (0, 0, 0, 1).
 /// Throws Error{bad_program} for what `machine` cannot run, and for fetches between stages, which
 /// are not supported yet.
 BoundProgram bind(const CombinerProgram& program, const Machine& machine,
-                  std::uint32_t enabled_units);
+                  std::uint32_t enabled_units, const Wanted& wanted = {});
 
 /// Fills the constant planes of a packet; needed once per packet memory and program.
 void load_constants(const BoundProgram& program, Packet& packet);
 
-/// Runs the general stages and the final combiner.
+/// Runs the general stages and, if it is asked for, the final combiner.
 void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet);
 
 }  // namespace burnish

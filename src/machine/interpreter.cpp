@@ -11,31 +11,94 @@ namespace burnish {
 
 namespace {
 
-/// Where the two number models differ.
-struct Numbers {
+/// floor(x / y) for y > 0.
+int floor_quotient(std::int64_t x, int y) {
+    return static_cast<int>(x % y < 0 ? x / y - 1 : x / y);
+}
+/// floor(x / y + 1/2) for y > 0.
+int round_quotient(std::int64_t x, int y) {
+    return floor_quotient(2 * x + y, 2 * y);
+}
+
+/// Register codes of the two number models.
+struct CodeNumbers {
+    using Value = int;
     int one, half;
     int low, high;  ///< range of a register
     bool wide;
+    ProductRounding product_rounding = ProductRounding::nearest;
+    ExpandRule expand_rule = ExpandRule::hardware;
+    Halving halving = Halving::half_up;
+    LerpRounding lerp_rounding = LerpRounding::once;
+
+    /// A product of two codes, or a sum of such products, as a code.
+    [[nodiscard]] int from_product(int x) const {
+        switch (product_rounding) {
+            case ProductRounding::nearest:
+                break;
+            case ProductRounding::truncate:
+                return x / one;
+            case ProductRounding::shift8:
+                return floor_quotient(x, 256);
+        }
+        return round_quotient(x, one);
+    }
+    [[nodiscard]] int halved(int x) const {
+        return halving == Halving::down ? floor_quotient(x, 2) : round_quotient(x, 2);
+    }
+    /// 2 (x - 1/2) and x - 1/2 for x >= 0.
+    [[nodiscard]] int expanded(int x) const {
+        return expand_rule == ExpandRule::ideal ? 2 * x - one : 2 * (x - half);
+    }
+    [[nodiscard]] int half_biased(int x) const {
+        const int below = x - half;
+        if (expand_rule == ExpandRule::hardware || below % 2 == 0) return below;
+        return below + 1;  // of the two neighbours of x - 127.5, the even one
+    }
+    [[nodiscard]] int blend(int ab, int rest) const {
+        if (lerp_rounding == LerpRounding::each) return from_product(ab) + from_product(rest);
+        return from_product(ab + rest);
+    }
+    [[nodiscard]] static bool is_odd(int x) { return x % 2 != 0; }
+    [[nodiscard]] int constant(float x) const {
+        return color_code(x, wide ? NumberModel::wide : NumberModel::nine_bit);
+    }
 };
 
-constexpr Numbers kNineBit{255, 128, -256, 255, false};
-constexpr Numbers kWide{16384, 8192, -32768, 32767, true};
+/// The real numbers that the codes stand for.
+struct RealNumbers {
+    using Value = double;
+    double one, half;
+    double low, high;
+    bool wide;
 
-const Numbers& numbers_of(NumberModel model) {
-    return model == NumberModel::wide ? kWide : kNineBit;
-}
+    [[nodiscard]] static double from_product(double x) { return x; }
+    [[nodiscard]] static double halved(double x) { return 0.5 * x; }
+    [[nodiscard]] static double expanded(double x) { return 2.0 * x - 1.0; }
+    [[nodiscard]] static double half_biased(double x) { return x - 0.5; }
+    [[nodiscard]] static double blend(double ab, double rest) { return ab + rest; }
+    /// The nearest nine-bit code is.
+    [[nodiscard]] static bool is_odd(double x) {
+        return std::fmod(std::floor(x * 255.0 + 0.5), 2.0) != 0.0;
+    }
+    [[nodiscard]] static double constant(float x) {
+        return x > 0.0F ? std::min(static_cast<double>(x), 1.0) : 0.0;
+    }
+};
 
-/// floor(x / y + 1/2) for y > 0.
-int round_quotient(std::int64_t x, int y) {
-    const std::int64_t twice = 2 * x + y;
-    const std::int64_t quotient = twice / (2 * y);
-    return static_cast<int>(twice % (2 * y) < 0 ? quotient - 1 : quotient);
-}
+constexpr CodeNumbers kNineBit{255, 128, -256, 255, false};
+constexpr CodeNumbers kWide{16384, 8192, -32768, 32767, true};
+constexpr RealNumbers kNineBitReals{1.0, 0.5, -256.0 / 255.0, 1.0, false};
+constexpr RealNumbers kWideReals{1.0, 0.5, -2.0, 32767.0 / 16384.0, true};
+
+template <class N>
+using Components = std::array<typename N::Value, 4>;
 
 /// Value of a register component as an operand. Nine-bit operands reach -256 .. 256.
-int map(Mapping mapping, int e, const Numbers& n) {
-    const int positive = std::max(e, 0);
-    int x = e;
+template <class N, class Value = typename N::Value>
+Value map(Mapping mapping, Value e, const N& n) {
+    const Value positive = std::max(e, Value{0});
+    Value x = e;
     switch (mapping) {
         case Mapping::unsigned_identity:
             x = positive;
@@ -44,16 +107,16 @@ int map(Mapping mapping, int e, const Numbers& n) {
             x = n.one - std::min(positive, n.one);
             break;
         case Mapping::expand:
-            x = 2 * (positive - n.half);
+            x = n.expanded(positive);
             break;
         case Mapping::expand_negate:
-            x = 2 * (n.half - positive);
+            x = -n.expanded(positive);
             break;
         case Mapping::half_bias:
-            x = positive - n.half;
+            x = n.half_biased(positive);
             break;
         case Mapping::half_bias_negate:
-            x = n.half - positive;
+            x = -n.half_biased(positive);
             break;
         case Mapping::signed_identity:
             break;
@@ -65,9 +128,10 @@ int map(Mapping mapping, int e, const Numbers& n) {
 }
 
 /// The four components that an input reads, mapped. `blue` and `alpha` fill all of them.
-Codes read(const RegisterFile& registers, const Input& input, const Numbers& n) {
-    const Codes& source = registers[input.reg];
-    Codes result;
+template <class N>
+Components<N> read(const Registers<typename N::Value>& registers, const Input& input, const N& n) {
+    const Components<N>& source = registers[input.reg];
+    Components<N> result;
     for (std::size_t c = 0; c < 4; ++c) {
         const std::size_t from = input.component == Component::alpha  ? 3
                                  : input.component == Component::blue ? 2
@@ -77,22 +141,25 @@ Codes read(const RegisterFile& registers, const Input& input, const Numbers& n) 
     return result;
 }
 
-Codes multiply(const Codes& x, const Codes& y, const Numbers& n) {
-    Codes result;
-    for (std::size_t c = 0; c < 4; ++c) result[c] = round_quotient(x[c] * y[c], n.one);
+template <class N>
+Components<N> multiply(const Components<N>& x, const Components<N>& y, const N& n) {
+    Components<N> result;
+    for (std::size_t c = 0; c < 4; ++c) result[c] = n.from_product(x[c] * y[c]);
     return result;
 }
 
 /// Only r, g, b of a dot product mean anything.
-Codes product(Product kind, const Codes& x, const Codes& y, const Numbers& n) {
-    const Codes terms = multiply(x, y, n);
+template <class N>
+Components<N> product(Product kind, const Components<N>& x, const Components<N>& y, const N& n) {
+    const Components<N> terms = multiply(x, y, n);
     if (kind == Product::multiply) return terms;
-    const int sum = terms[0] + terms[1] + terms[2];
+    const auto sum = terms[0] + terms[1] + terms[2];
     return {sum, sum, sum, sum};
 }
 
 /// Bias before scale, both before the clamp.
-int output(const Portion& portion, int x, const Numbers& n) {
+template <class N, class Value = typename N::Value>
+Value output(const Portion& portion, Value x, const N& n) {
     if (portion.bias_minus_half) x -= n.half;
     switch (portion.scale) {
         case Scale::one:
@@ -104,7 +171,7 @@ int output(const Portion& portion, int x, const Numbers& n) {
             x *= 4;
             break;
         case Scale::half:
-            x = round_quotient(x, 2);
+            x = n.halved(x);
             break;
     }
     if (n.wide && portion.wide) return std::clamp(x, n.low, n.high);
@@ -112,36 +179,41 @@ int output(const Portion& portion, int x, const Numbers& n) {
 }
 
 /// Writes components first .. last of the three outputs to `after`.
-void run_portion(const Portion& portion, const RegisterFile& before, RegisterFile& after,
-                 std::size_t first, std::size_t last, const Numbers& n) {
+template <class N, class Value = typename N::Value>
+void run_portion(const Portion& portion, MuxBit mux_bit, const Registers<Value>& before,
+                 Registers<Value>& after, std::size_t first, std::size_t last, const N& n) {
     const auto in = [&](const Input& input) { return read(before, input, n); };
-    const Codes ab = product(portion.ab_product, in(portion.a), in(portion.b), n);
-    const Codes cd = product(portion.cd_product, in(portion.c), in(portion.d), n);
-    const bool mux_takes_cd = before[Register::spare0][3] >= n.half;
+    const Components<N> ab = product(portion.ab_product, in(portion.a), in(portion.b), n);
+    const Components<N> cd = product(portion.cd_product, in(portion.c), in(portion.d), n);
+    const Value selector = before[Register::spare0][3];
+    const bool mux_takes_cd = mux_bit == MuxBit::msb ? selector >= n.half : n.is_odd(selector);
     for (std::size_t c = first; c <= last; ++c) {
-        const int sum = ab[c] + cd[c];
-        const int mux = mux_takes_cd ? cd[c] : ab[c];
-        const auto write = [&](Register out, int x) {
+        const Value sum = ab[c] + cd[c];
+        const Value mux = mux_takes_cd ? cd[c] : ab[c];
+        const auto write = [&](Register out, Value x) {
             if (out != Register::discard) after[out][c] = output(portion, x, n);
         };
         write(portion.ab_out, ab[c]);
         write(portion.cd_out, cd[c]);
         write(portion.third_out, portion.third == Third::sum ? sum : mux);
     }
+    if (portion.ab_blue_to_alpha) after[portion.ab_out][3] = after[portion.ab_out][2];
+    if (portion.cd_blue_to_alpha) after[portion.cd_out][3] = after[portion.cd_out][2];
 }
 
-Codes color_codes(const glm::vec4& color, NumberModel model) {
-    return {color_code(color.r, model), color_code(color.g, model), color_code(color.b, model),
-            color_code(color.a, model)};
+template <class N>
+Components<N> constants(const glm::vec4& color, const N& n) {
+    return {n.constant(color.r), n.constant(color.g), n.constant(color.b), n.constant(color.a)};
 }
 
-RegisterFile initial_registers(const CombinerProgram& program, NumberModel model,
-                               const RegisterFile& inputs) {
-    RegisterFile registers = inputs;
+template <class N, class Value = typename N::Value>
+Registers<Value> initial_registers(const CombinerProgram& program, const Registers<Value>& inputs,
+                                   const N& n) {
+    Registers<Value> registers = inputs;
     registers[Register::zero] = {};
-    registers[Register::const0] = color_codes(program.const0, model);
-    registers[Register::const1] = color_codes(program.const1, model);
-    registers[Register::fog] = color_codes(program.fog, model);
+    registers[Register::const0] = constants(program.const0, n);
+    registers[Register::const1] = constants(program.const1, n);
+    registers[Register::fog] = constants(program.fog, n);
     registers[Register::spare0] = {0, 0, 0, inputs[Register::tex0][3]};
     registers[Register::spare1] = {};
     registers[Register::color_sum] = {};
@@ -151,19 +223,23 @@ RegisterFile initial_registers(const CombinerProgram& program, NumberModel model
 }
 
 /// Inputs of the final combiner stop at 1; only the colour sum may pass it.
-Codes read_final(const RegisterFile& registers, const Input& input, const Numbers& n) {
-    Codes result = read(registers, input, n);
+template <class N>
+Components<N> read_final(const Registers<typename N::Value>& registers, const Input& input,
+                         const N& n) {
+    Components<N> result = read(registers, input, n);
     if (input.reg == Register::color_sum) return result;
-    for (int& x : result) x = std::min(x, n.one);
+    for (auto& x : result) x = std::min(x, n.one);
     return result;
 }
 
-Codes color_sum(const FinalCombiner& final, const RegisterFile& registers, const Numbers& n) {
-    Codes sum{};
+template <class N, class Value = typename N::Value>
+Components<N> color_sum(const FinalCombiner& final, const Registers<Value>& registers, const N& n) {
+    Components<N> sum{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const int spare0 = std::clamp(registers[Register::spare0][c], 0, n.one);
-        const int secondary = std::clamp(registers[Register::col1][c], 0, n.one);
-        sum[c] = spare0 + secondary;
+        const Value spare0 = std::clamp(registers[Register::spare0][c], Value{0}, n.one);
+        const Value secondary = std::clamp(registers[Register::col1][c], Value{0}, n.one);
+        sum[c] = (final.complement_spare0 ? n.one - spare0 : spare0) +
+                 (final.complement_secondary ? n.one - secondary : secondary);
         if (n.wide) sum[c] = std::min(sum[c], n.high);
         if (final.clamp_color_sum) sum[c] = std::min(sum[c], n.one);
     }
@@ -171,30 +247,63 @@ Codes color_sum(const FinalCombiner& final, const RegisterFile& registers, const
 }
 
 /// Sets color_sum and final_product in `registers`.
-Codes run_final(const FinalCombiner& final, RegisterFile& registers, const Numbers& n) {
+template <class N>
+Components<N> run_final(const FinalCombiner& final, Registers<typename N::Value>& registers,
+                        const N& n) {
     registers[Register::color_sum] = color_sum(final, registers, n);
-    const Codes e = read_final(registers, final.e, n);
-    const Codes f = read_final(registers, final.f, n);
+    const Components<N> e = read_final(registers, final.e, n);
+    const Components<N> f = read_final(registers, final.f, n);
     registers[Register::final_product] = multiply(e, f, n);
     registers[Register::final_product][3] = 0;
 
-    const Codes a = read_final(registers, final.a, n);
-    const Codes b = read_final(registers, final.b, n);
-    const Codes c = read_final(registers, final.c, n);
-    const Codes d = read_final(registers, final.d, n);
-    Codes result;
+    const Components<N> a = read_final(registers, final.a, n);
+    const Components<N> b = read_final(registers, final.b, n);
+    const Components<N> c = read_final(registers, final.c, n);
+    const Components<N> d = read_final(registers, final.d, n);
+    Components<N> result;
     for (std::size_t i = 0; i < 3; ++i) {
-        const int blended = round_quotient(a[i] * b[i] + (n.one - a[i]) * c[i], n.one);
+        const auto blended = n.blend(a[i] * b[i], (n.one - a[i]) * c[i]);
         result[i] = std::min(n.one, blended + d[i]);
     }
     result[3] = read_final(registers, final.g, n)[3];
     return result;
 }
 
+template <class N, class Value = typename N::Value>
+Components<N> run_program(const CombinerProgram& program, const Registers<Value>& inputs,
+                          std::vector<Registers<Value>>* trace, const N& n) {
+    Registers<Value> registers = initial_registers(program, inputs, n);
+    const Components<N> global0 = registers[Register::const0];
+    const Components<N> global1 = registers[Register::const1];
+    const auto constant = [&](const std::optional<glm::vec4>& own, const Components<N>& global) {
+        return own ? constants(*own, n) : global;
+    };
+    if (trace != nullptr) trace->push_back(registers);
+
+    for (const GeneralStage& stage : program.stages) {
+        registers[Register::const0] = constant(stage.const0, global0);
+        registers[Register::const1] = constant(stage.const1, global1);
+        const Registers<Value> before = registers;
+        run_portion(stage.rgb, program.mux_bit, before, registers, 0, 2, n);
+        run_portion(stage.alpha, program.mux_bit, before, registers, 3, 3, n);
+        if (trace != nullptr) trace->push_back(registers);
+    }
+
+    registers[Register::const0] = global0;
+    registers[Register::const1] = global1;
+    const Components<N> result = run_final(program.final_combiner, registers, n);
+    if (trace != nullptr) trace->push_back(registers);
+    return result;
+}
+
 }  // namespace
 
-int color_code(float x, NumberModel model) {
-    const int one = numbers_of(model).one;
+int code_of_one(NumberModel numbers) {
+    return numbers == NumberModel::wide ? kWide.one : kNineBit.one;
+}
+
+int color_code(float x, NumberModel numbers) {
+    const int one = code_of_one(numbers);
     const float code = std::floor(x * static_cast<float>(one) + 0.5F);
     if (!(code > 0.0F)) return 0;
     return code < static_cast<float>(one) ? static_cast<int>(code) : one;
@@ -203,29 +312,19 @@ int color_code(float x, NumberModel model) {
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace) {
     require_no_fetches(program);
-    const Numbers& n = numbers_of(machine.numbers);
-    RegisterFile registers = initial_registers(program, machine.numbers, inputs);
-    const Codes global0 = registers[Register::const0];
-    const Codes global1 = registers[Register::const1];
-    const auto constant = [&](const std::optional<glm::vec4>& own, const Codes& global) {
-        return own ? color_codes(*own, machine.numbers) : global;
-    };
-    if (trace != nullptr) trace->push_back(registers);
+    CodeNumbers numbers = machine.numbers == NumberModel::wide ? kWide : kNineBit;
+    numbers.product_rounding = machine.product_rounding;
+    numbers.expand_rule = machine.expand;
+    numbers.halving = machine.halving;
+    numbers.lerp_rounding = machine.lerp_rounding;
+    return run_program(program, inputs, trace, numbers);
+}
 
-    for (const GeneralStage& stage : program.stages) {
-        registers[Register::const0] = constant(stage.const0, global0);
-        registers[Register::const1] = constant(stage.const1, global1);
-        const RegisterFile before = registers;
-        run_portion(stage.rgb, before, registers, 0, 2, n);
-        run_portion(stage.alpha, before, registers, 3, 3, n);
-        if (trace != nullptr) trace->push_back(registers);
-    }
-
-    registers[Register::const0] = global0;
-    registers[Register::const1] = global1;
-    const Codes result = run_final(program.final_combiner, registers, n);
-    if (trace != nullptr) trace->push_back(registers);
-    return result;
+Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
+                            const RealRegisters& inputs, std::vector<RealRegisters>* trace) {
+    require_no_fetches(program);
+    const bool wide = machine.numbers == NumberModel::wide;
+    return run_program(program, inputs, trace, wide ? kWideReals : kNineBitReals);
 }
 
 }  // namespace burnish

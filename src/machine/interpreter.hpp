@@ -10,20 +10,31 @@
 /// oracle for programs that were bound to kernels, and what `burnish trace` shows.
 namespace burnish {
 
+/// One value of four components per register. `discard` takes a place but is never written.
+template <class Value>
+struct Registers {
+    std::array<std::array<Value, 4>, static_cast<std::size_t>(Register::discard) + 1> values{};
+
+    std::array<Value, 4>& operator[](Register r) { return values[static_cast<std::size_t>(r)]; }
+    const std::array<Value, 4>& operator[](Register r) const {
+        return values[static_cast<std::size_t>(r)];
+    }
+};
+
 /// Red, green, blue, alpha as register codes: value * 255 (nine_bit) or value * 2^14 (wide).
 using Codes = std::array<int, 4>;
+using RegisterFile = Registers<int>;
 
-/// One value per register. `discard` takes a place but is never written.
-struct RegisterFile {
-    std::array<Codes, static_cast<std::size_t>(Register::discard) + 1> codes{};
-
-    Codes& operator[](Register r) { return codes[static_cast<std::size_t>(r)]; }
-    const Codes& operator[](Register r) const { return codes[static_cast<std::size_t>(r)]; }
-};
+/// The same as real numbers.
+using Reals = std::array<double, 4>;
+using RealRegisters = Registers<double>;
 
 /// Code of a constant or an interpolated colour x: floor(x * one + 1/2) in single precision,
 /// clamped to 0 .. one, as the stages encode_nine_bit and encode_wide have it. NaN gives 0.
 int color_code(float x, NumberModel numbers);
+
+/// The code of 1: 255 or 16384.
+int code_of_one(NumberModel numbers);
 
 /// What the final combiner delivers, 0 .. 255 or 0 .. 16384.
 /// @param program  valid for `machine` (CombinerProgram::validate)
@@ -36,5 +47,11 @@ int color_code(float x, NumberModel numbers);
 /// Throws Error{bad_program} for fetches between stages, which are not supported yet.
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace = nullptr);
+
+/// The same program in exact arithmetic (double precision): nothing is rounded, 1/2 is 1/2, and
+/// values stop where the machine's registers and operands stop.
+Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
+                            const RealRegisters& inputs,
+                            std::vector<RealRegisters>* trace = nullptr);
 
 }  // namespace burnish

@@ -75,12 +75,9 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
 void TileVisibility::hide_outside() {
     const std::int32_t columns = std::min(m_frame.width - left(), kTileSize);
     const std::int32_t rows = std::min(m_frame.height - top(), kTileSize);
-    constexpr std::int32_t kBlocks = kTileSize / kBlockSize;
     for (std::int32_t y = 0; y < kTileSize; ++y) {
         for (std::int32_t x = y < rows ? columns : 0; x < kTileSize; ++x) {
-            const std::int32_t block = y / kBlockSize * kBlocks + x / kBlockSize;
-            m_id[static_cast<std::size_t>(block * kBlockPixels + y % kBlockSize * kBlockSize +
-                                          x % kBlockSize)] = kNoTriangle;
+            m_id[tile_index(x, y)] = kNoTriangle;
         }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +15,13 @@ namespace burnish {
 struct DepthRule {
     std::uint8_t pass_less, pass_equal, pass_greater, write;
 };
+
+/// Place of pixel (x, y) of a tile, 0 .. 63 each, in the order of kernels/packet.hpp.
+constexpr std::size_t tile_index(std::int32_t x, std::int32_t y) {
+    const std::int32_t block = y / kBlockSize * (kTileSize / kBlockSize) + x / kBlockSize;
+    return static_cast<std::size_t>(block * kBlockPixels + y % kBlockSize * kBlockSize +
+                                    x % kBlockSize);
+}
 
 /// Depth and visibility of one tile; a worker's scratch. Pixels in the order of kernels/packet.hpp.
 class TileVisibility {

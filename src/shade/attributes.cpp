@@ -15,6 +15,10 @@ Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w, a.x * b.y - a.y * b.x};
 }
 
+double dot(const Vector& a, const Vector& b) {
+    return a.x * b.x + a.y * b.y + a.w * b.w;
+}
+
 /// Corner i in homogeneous window coordinates, counted from the centre of the reference pixel.
 Vector corner(const ScreenMesh& mesh, const SetupTriangle& t, std::size_t i) {
     const HomogeneousVertex& h = mesh.homogeneous[t.vertex[i]];
@@ -27,27 +31,49 @@ Vector corner(const ScreenMesh& mesh, const SetupTriangle& t, std::size_t i) {
     return {(t.x[i] / 256.0 - centre_x) * w, (t.y[i] / 256.0 - centre_y) * w, w};
 }
 
+/// The inverse of the vertex matrix: row[i] . (x, y, 1) * scale is corner i's weight over w at
+/// window position (x, y), counted from the centre of the reference pixel.
+struct CornerRows {
+    std::array<Vector, 3> row;
+    double scale;  ///< not finite if the triangle is seen edge-on
+};
+
+CornerRows corner_rows(const ScreenMesh& mesh, const SetupTriangle& t) {
+    const Vector v[3] = {corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)};
+    CornerRows rows{{cross(v[1], v[2]), cross(v[2], v[0]), cross(v[0], v[1])}, 0.0};
+    rows.scale = 1.0 / dot(v[0], rows.row[0]);
+    return rows;
+}
+
 }  // namespace
+
+Barycentrics barycentrics(const ScreenMesh& mesh, const SetupTriangle& triangle, std::int32_t x,
+                          std::int32_t y) {
+    const CornerRows rows = corner_rows(mesh, triangle);
+    if (!std::isfinite(rows.scale)) return {{1.0, 0.0, 0.0}, 1.0};
+    const Vector pixel{static_cast<double>(x - triangle.reference_x),
+                       static_cast<double>(y - triangle.reference_y), 1.0};
+    const double a = dot(rows.row[0], pixel), b = dot(rows.row[1], pixel),
+                 c = dot(rows.row[2], pixel);
+    const double sum = a + b + c;
+    return {{a / sum, b / sum, c / sum}, sum * rows.scale};
+}
 
 void attribute_planes(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                       AttributePlane* out) {
     std::array<std::array<float, kMaxInterpolated>, 3> values;
-    std::array<Vector, 3> v;
     for (std::size_t i = 0; i < 3; ++i) {
         vertex_attributes(shading, triangle.vertex[i], values[i].data());
-        v[i] = corner(mesh, triangle, i);
     }
-    // Rows of the inverse of the vertex matrix: b[i] . (x, y, 1) is corner i's weight over w.
-    std::array<Vector, 3> b{cross(v[1], v[2]), cross(v[2], v[0]), cross(v[0], v[1])};
-    const double determinant = v[0].x * b[0].x + v[0].y * b[0].y + v[0].w * b[0].w;
-    const double scale = 1.0 / determinant;
+    CornerRows rows = corner_rows(mesh, triangle);
+    std::array<Vector, 3>& b = rows.row;
     const auto count = static_cast<std::size_t>(shading.interpolated());
-    if (!std::isfinite(scale)) {  // seen edge-on: no plane, so the first corner's values
+    if (!std::isfinite(rows.scale)) {  // seen edge-on: no plane, so the first corner's values
         out[0] = {1.0F, 0.0F, 0.0F};
         for (std::size_t k = 0; k < count; ++k) out[k + 1] = {values[0][k], 0.0F, 0.0F};
         return;
     }
-    for (Vector& row : b) row = {row.x * scale, row.y * scale, row.w * scale};
+    for (Vector& row : b) row = {row.x * rows.scale, row.y * rows.scale, row.w * rows.scale};
     const auto plane = [&](double a0, double a1, double a2) {
         return AttributePlane{static_cast<float>(a0 * b[0].w + a1 * b[1].w + a2 * b[2].w),
                               static_cast<float>(a0 * b[0].x + a1 * b[1].x + a2 * b[2].x),

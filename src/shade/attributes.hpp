@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "geometry/triangle.hpp"
 #include "kernels/packet_stages.hpp"
 #include "shade/shading.hpp"
@@ -16,5 +19,16 @@ namespace burnish {
 /// Coordinates", 1997.
 void attribute_planes(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                       AttributePlane* out);
+
+/// Where a pixel lies in its triangle.
+struct Barycentrics {
+    std::array<double, 3> weight;  ///< of the corners, perspective-correct; they sum to 1
+    double one_over_w;
+};
+
+/// At the centre of window pixel (x, y), in double precision and from the corners that the planes
+/// are made from: what they are rounded from.
+Barycentrics barycentrics(const ScreenMesh& mesh, const SetupTriangle& triangle, std::int32_t x,
+                          std::int32_t y);
 
 }  // namespace burnish

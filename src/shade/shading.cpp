@@ -214,7 +214,7 @@ class Planner {
 }  // namespace
 
 void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                  bool is_mesh) {
+                  bool is_mesh, const Wanted& wanted) {
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
         throw Error(ErrorCode::bad_program,
                     fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
@@ -224,7 +224,7 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
     for (std::size_t i = 0; i < material.units.size(); ++i) {
         if (material.units[i]) enabled |= 1U << i;
     }
-    shading.program = bind(material.combiners, machine, enabled);
+    shading.program = bind(material.combiners, machine, enabled, wanted);
     shading.textures = material.units;
     Planner(shading, material, is_mesh, machine.half_vector == HalfVector::pixel)
         .plan(shading.space);
@@ -249,9 +249,8 @@ void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out)
     std::copy_n(shading.varyings.data() + vertex * count, count, out);
 }
 
-void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
-                  StoreFormat format, void* tile, Packet& packet) {
-    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
+void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
+                Packet& packet) {
     struct FeedInput {
         const KernelTable& k;
         Packet& p;
@@ -268,11 +267,19 @@ void shade_packet(const Shading& shading, const KernelTable& kernels, const Attr
             (nine_bit ? k.fetch_nine_bit : k.fetch_wide)(p, c);
         }
     };
+    std::visit(FeedInput{kernels, packet, numbers == NumberModel::nine_bit}, op);
+}
+
+void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
+                  StoreFormat format, void* tile, Packet& packet) {
+    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
     kernels.attributes(packet, runs);
-    for (const InputOp& op : shading.inputs) std::visit(FeedInput{kernels, packet, nine_bit}, op);
+    for (const InputOp& op : shading.inputs) {
+        feed_input(op, shading.program.numbers, kernels, packet);
+    }
     run(shading.program, kernels, packet);
     StoreCtx store{};
-    std::copy_n(shading.program.final_combiner.out, 4, store.plane);
+    std::copy_n(shading.program.result.begin(), 4, store.plane);
     store.format = format;
     store.tile = tile;
     (nine_bit ? kernels.store_nine_bit : kernels.store_wide)(packet, store);

@@ -50,10 +50,13 @@ struct Shading {
 /// Binds the program and plans its inputs. `space` and `lit` are set before, `frames` and
 /// `varyings` afterwards. Throws Error{bad_program} for what `machine` cannot run.
 void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                  bool is_mesh);
+                  bool is_mesh, const Wanted& wanted = {});
 
 /// Writes the shading.interpolated() attributes of one vertex.
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out);
+
+/// One input operation on a packet.
+void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels, Packet& packet);
 
 /// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
 /// constant planes are in place.

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <burnish/combiner.hpp>
 #include <burnish/framebuffer.hpp>
 #include <burnish/scene.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +26,19 @@ struct RendererOptions {
     int threads = 0;       ///< workers, exactly that many; 0 = one per core; at most 1024
     std::string isa = {};  ///< empty: the environment variable BURNISH_ISA, else the best available
     std::size_t memory_cap = std::size_t{256} << 20;  ///< bytes for binned triangles, then a flush
+};
+
+/// A register of the combiners as the picture, instead of what the final combiner delivers.
+///
+/// Frames of floats get its signed value, others value/2 + 1/2, clamped to 0 .. 1, alpha included.
+/// `color_sum` and `final_product` exist in the final combiner only and are not negative: every
+/// frame gets their value up to 1, and alpha 0.
+struct ShownRegister {
+    static constexpr std::size_t kAllStages = 16;
+    Register reg = Register::spare0;
+    /// General stages that run before: 0 shows what the program starts from. A program with fewer
+    /// stages shows what its last one left.
+    std::size_t stages = kAllStages;
 };
 
 /// What a frame did. Counts do not depend on ISA or thread count; times do.
@@ -58,7 +73,13 @@ class Renderer {
     /// be drawn, Error{limit} if memory runs out; the contents of `target` are then unspecified.
     FrameStats render(const Scene& scene, Framebuffer& target);
 
+    /// The same picture with a register in place of its colours; the background stays.
+    /// Throws Error{bad_option}, too, for a register that the machine does not have.
+    FrameStats render(const Scene& scene, Framebuffer& target, const ShownRegister& shown);
+
   private:
+    FrameStats render_shown(const Scene& scene, Framebuffer& target,
+                            const std::optional<ShownRegister>& shown);
     struct State;
     std::unique_ptr<State> m_state;
 };

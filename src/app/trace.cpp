@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <burnish/error.hpp>
+#include <burnish/trace.hpp>
+#include <cstdio>
+#include <cstring>
+
+#include "app/picture.hpp"
+#include "app/trace_print.hpp"
+#include "app/verbs.hpp"
+
+namespace burnish::app {
+namespace {
+
+template <class Channel>
+std::array<double, 4> channels_at(const Framebuffer& frame, int x, int y) {
+    Channel values[4];
+    std::memcpy(values, frame.row(y) + static_cast<std::size_t>(x) * sizeof values, sizeof values);
+    return {static_cast<double>(values[0]), static_cast<double>(values[1]),
+            static_cast<double>(values[2]), static_cast<double>(values[3])};
+}
+
+std::array<double, 4> pixel_of(const Framebuffer& frame, int x, int y) {
+    switch (frame.format()) {
+        case PixelFormat::rgba8:
+            return channels_at<std::uint8_t>(frame, x, y);
+        case PixelFormat::rgba16:
+            return channels_at<std::uint16_t>(frame, x, y);
+        case PixelFormat::rgba32f:
+            return channels_at<float>(frame, x, y);
+    }
+    return {};
+}
+
+/// The whole picture is drawn, too: what the trace says must be what a user sees.
+void require_same_pixel(const PixelTrace& trace, const Framebuffer& frame) {
+    const std::array<double, 4> drawn = pixel_of(frame, trace.x, trace.y);
+    if (drawn == trace.stored) return;
+    throw Error(ErrorCode::bad_program,
+                fmt::format("pixel {},{}: the renderer stored {}, the trace {}: a fault of burnish",
+                            trace.x, trace.y, fmt::join(drawn, " "), fmt::join(trace.stored, " ")));
+}
+
+}  // namespace
+
+void run(const TraceOptions& options) {
+    Renderer renderer = make_renderer(options.picture);
+    const Scene scene = load_picture(options.picture);
+    const glm::ivec2 pixel = options.pixel;
+    if (pixel.x >= scene.width || pixel.y >= scene.height)
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("--pixel {},{}, expected one inside the picture of {} x {} pixels",
+                                pixel.x, pixel.y, scene.width, scene.height));
+    Framebuffer frame(scene.width, scene.height, scene.format);
+    draw(renderer, scene, frame);
+    const PixelTrace trace = trace_pixel(scene, pixel.x, pixel.y);
+    require_same_pixel(trace, frame);
+    if (options.json)
+        fmt::print("{}\n", trace_json(trace, scene));
+    else
+        fmt::print("{}", trace_text(trace, scene));
+}
+
+}  // namespace burnish::app

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <span>
+
+#include "app/stats.hpp"
+#include "app/trace_print.hpp"
+
+namespace burnish::app {
+namespace {
+
+/// JSON has neither NaN nor infinity.
+std::string json(double x) {
+    return std::isfinite(x) ? fmt::format("{}", x) : "null";
+}
+std::string json(int x) {
+    return fmt::format("{}", x);
+}
+std::string json(std::uint32_t x) {
+    return fmt::format("{}", x);
+}
+std::string json(std::uint8_t x) {
+    return fmt::format("{}", x);
+}
+std::string json(bool x) {
+    return x ? "true" : "false";
+}
+
+/// The elements as `f` prints them, between brackets.
+template <class Range, class F>
+std::string json_list(const Range& range, F&& f) {
+    std::string list;
+    for (const auto& element : range) {
+        if (!list.empty()) list += ", ";
+        list += f(element);
+    }
+    return "[" + list + "]";
+}
+
+template <class Range>
+std::string json_list(const Range& range) {
+    return json_list(range, [](const auto& x) { return json(x); });
+}
+
+/// "value", "exact" and "error" of several numbers, without braces.
+std::string json_members(std::span<const TracedNumber> numbers) {
+    return fmt::format("\"value\": {}, \"exact\": {}, \"error\": {}",
+                       json_list(numbers, [](const TracedNumber& n) { return json(n.value); }),
+                       json_list(numbers, [](const TracedNumber& n) { return json(n.exact); }),
+                       json_list(numbers, [](const TracedNumber& n) { return json(n.error()); }));
+}
+
+std::string json(const TracedNumber& n) {
+    return fmt::format("{{\"value\": {}, \"exact\": {}, \"error\": {}}}", json(n.value),
+                       json(n.exact), json(n.error()));
+}
+
+std::string interpolant_json(const TracedInterpolant& i) {
+    return fmt::format("{{\"name\": {}, \"components\": {}, {}}}", json_string(i.name),
+                       json_string(i.components), json_members(i.numbers));
+}
+
+std::string fetch_json(const TracedFetch& f) {
+    return fmt::format(
+        "{{\"unit\": {}, \"width\": {}, \"height\": {}, \"filter\": \"{}\", \"u\": {}, \"v\": {}, "
+        "\"texels\": [[{}, {}], [{}, {}], [{}, {}], [{}, {}]], \"taps\": {}, "
+        "\"weights\": [{}, {}], \"codes\": {}, {}}}",
+        f.unit, f.width, f.height, f.sampler.filter == Filter::linear ? "linear" : "nearest",
+        json(f.u), json(f.v), f.x0, f.y0, f.x1, f.y0, f.x0, f.y1, f.x1, f.y1,
+        json_list(f.taps, [](const auto& tap) { return json_list(tap); }), f.weight_x, f.weight_y,
+        json_list(f.codes), json_members(f.color));
+}
+
+std::string register_json(const TracedRegister& r) {
+    return fmt::format(
+        "{{\"register\": \"{}\", \"codes\": {}, {}, \"filled\": {}, \"changed\": {}}}",
+        register_name(r.reg), json_list(r.codes), json_members(r.color), json_list(r.filled),
+        json_list(r.changed));
+}
+
+std::string stage_json(const TracedStage& s) {
+    return fmt::format("{{\"name\": {}, \"registers\": {}}}", json_string(s.name),
+                       json_list(s.registers, register_json));
+}
+
+std::string fragment_json(const TracedFragment& f) {
+    return fmt::format(
+        "{{\"object\": {}, \"material\": {}, \"triangle\": {}, \"clipped\": {}, \"vertices\": {}, "
+        "\"barycentrics\": {}, \"depth\": {}, \"one_over_w\": {}, \"interpolants\": {}, "
+        "\"fetches\": {}, \"stages\": {}, \"codes\": {}, {}}}",
+        f.object, json_string(f.material), f.triangle, f.clipped, json_list(f.vertices),
+        json_list(f.barycentrics), json(f.depth), json(f.one_over_w),
+        json_list(f.interpolants, interpolant_json), json_list(f.fetches, fetch_json),
+        json_list(f.stages, stage_json), json_list(f.codes), json_members(f.color));
+}
+
+}  // namespace
+
+std::string trace_json(const PixelTrace& trace, const Scene& scene) {
+    return fmt::format(
+        "{{\"pixel\": [{}, {}], \"size\": [{}, {}], \"machine\": {}, \"one\": {}, \"fragment\": "
+        "{}, "
+        "\"format\": \"{}\", \"stored\": {}}}",
+        trace.x, trace.y, scene.width, scene.height, json_string(trace.machine.name), trace.one,
+        trace.fragment ? fragment_json(*trace.fragment) : "null", format_name(trace.format),
+        json_list(trace.stored));
+}
+
+}  // namespace burnish::app

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/trace_print.hpp"
+
+namespace burnish::app {
+namespace {
+
+constexpr const char* kNotFilled = "-";
+
+/// Four numbers of one kind side by side; `cell` prints component c.
+template <class F>
+std::string four(F&& cell) {
+    std::string text;
+    for (std::size_t c = 0; c < 4; ++c) text += cell(c);
+    return text;
+}
+
+/// Prints tables whose columns are wide enough for the machine's codes.
+class TableWriter {
+  public:
+    explicit TableWriter(int one) : m_one(one), m_digits(one > 255 ? 5 : 4) {}
+
+    std::string heading(const std::string& title) const {
+        const int wide = 4 * value_width();
+        return fmt::format("{:<15}{:<28}{:<{}}{:<{}}{}\n", title, "     code r g b a", "  value",
+                           wide, "  exact", wide, "  error, in codes");
+    }
+
+    std::string row(const std::string& name, const std::array<int, 4>& codes,
+                    const std::array<TracedNumber, 4>& color,
+                    const std::array<bool, 4>& filled) const {
+        const auto cell = [&](std::size_t c, int width, const std::string& text) {
+            return fmt::format("{:>{}}", filled[c] ? text : kNotFilled, width);
+        };
+        const auto value = [&](double x) { return fmt::format("{:.{}f}", x, m_digits); };
+        std::string text = fmt::format("{:<15}", name);
+        text += four([&](std::size_t c) { return cell(c, 7, fmt::format("{}", codes[c])); });
+        text += four([&](std::size_t c) { return cell(c, value_width(), value(color[c].value)); });
+        text += four([&](std::size_t c) { return cell(c, value_width(), value(color[c].exact)); });
+        text += four([&](std::size_t c) {
+            return cell(c, 8, fmt::format("{:.2f}", color[c].error() * m_one));
+        });
+        return text + "\n";
+    }
+
+    std::string stage(const TracedStage& stage) const {
+        std::string text = heading(stage.name);
+        for (const TracedRegister& r : stage.registers) {
+            const bool changed = r.changed[0] || r.changed[1] || r.changed[2] || r.changed[3];
+            text += row(fmt::format("{} {}", changed ? '*' : ' ', register_name(r.reg)), r.codes,
+                        r.color, r.filled);
+        }
+        return text;
+    }
+
+  private:
+    [[nodiscard]] int value_width() const { return m_digits + 4; }
+
+    int m_one;
+    int m_digits;
+};
+
+constexpr std::array<bool, 4> kAll{true, true, true, true};
+
+std::string triangle_text(const TracedFragment& f) {
+    std::string text = fmt::format("object {}, material '{}', triangle {}{}\n", f.object,
+                                   f.material, f.triangle, f.clipped ? ", clipped" : "");
+    text += fmt::format("  depth {:.9g}\n", f.depth);
+    text += fmt::format("  1/w   {:.9g}, exact {:.9g}, error {:.1e}\n", f.one_over_w.value,
+                        f.one_over_w.exact, f.one_over_w.error());
+    for (std::size_t i = 0; i < 3; ++i) {
+        text += fmt::format("  corner {}: vertex {}, weight {:.9f}\n", i, f.vertices[i],
+                            f.barycentrics[i]);
+    }
+    return text;
+}
+
+std::string interpolant_text(const std::vector<TracedInterpolant>& list) {
+    if (list.empty()) return "";
+    std::string text =
+        fmt::format("{:<20}{:>14}{:>14}{:>11}\n", "interpolants", "value", "exact", "error");
+    for (const TracedInterpolant& group : list) {
+        for (std::size_t k = 0; k < group.numbers.size(); ++k) {
+            const TracedNumber& n = group.numbers[k];
+            const std::string name = group.name + "." + group.components[k];
+            text += fmt::format("  {:<18}{:>14.8f}{:>14.8f}{:>11.1e}\n", name, n.value, n.exact,
+                                n.error());
+        }
+    }
+    return text;
+}
+
+const char* wrap_name(Wrap wrap) {
+    return wrap == Wrap::repeat ? "repeat" : "clamp_to_edge";
+}
+
+std::string fetch_text(const TracedFetch& f, const TableWriter& table) {
+    std::string text =
+        fmt::format("fetch of unit {}: {} x {} texels, {}, {} {}\n", f.unit, f.width, f.height,
+                    f.sampler.filter == Filter::linear ? "linear" : "nearest",
+                    wrap_name(f.sampler.wrap_s), wrap_name(f.sampler.wrap_t));
+    text +=
+        fmt::format("  u {:.8f}, exact {:.8f}, error {:.1e}\n", f.u.value, f.u.exact, f.u.error());
+    text +=
+        fmt::format("  v {:.8f}, exact {:.8f}, error {:.1e}\n", f.v.value, f.v.exact, f.v.error());
+    text += fmt::format("  weights: right {}/256, lower {}/256\n", f.weight_x, f.weight_y);
+    for (std::size_t tap = 0; tap < 4; ++tap) {
+        const auto& bytes = f.taps[tap];
+        const std::string place =
+            fmt::format("({}, {})", tap % 2 == 0 ? f.x0 : f.x1, tap < 2 ? f.y0 : f.y1);
+        text += fmt::format("  texel {:<14}{:>4}{:>4}{:>4}{:>4}\n", place, bytes[0], bytes[1],
+                            bytes[2], bytes[3]);
+    }
+    const std::string name = fmt::format("  tex{}", f.unit);
+    return text + table.heading("") + table.row(name, f.codes, f.color, kAll);
+}
+
+}  // namespace
+
+const char* format_name(PixelFormat format) {
+    switch (format) {
+        case PixelFormat::rgba8:
+            return "rgba8";
+        case PixelFormat::rgba16:
+            return "rgba16";
+        case PixelFormat::rgba32f:
+            return "rgba32f";
+    }
+    return "";
+}
+
+std::string trace_text(const PixelTrace& trace, const Scene& scene) {
+    const TableWriter table(trace.one);
+    std::string text =
+        fmt::format("pixel {},{} of {} x {}, machine {}, 1 is code {}\n", trace.x, trace.y,
+                    scene.width, scene.height, trace.machine.name, trace.one);
+    if (!trace.fragment) {
+        text += "background\n";
+    } else {
+        const TracedFragment& f = *trace.fragment;
+        text += triangle_text(f) + "\n" + interpolant_text(f.interpolants) + "\n";
+        for (const TracedFetch& fetch : f.fetches) text += fetch_text(fetch, table) + "\n";
+        for (const TracedStage& stage : f.stages) text += table.stage(stage) + "\n";
+        text += table.heading("result") + table.row("  color", f.codes, f.color, kAll);
+    }
+    const auto& s = trace.stored;
+    return text + fmt::format("stored, {}: {} {} {} {}\n", format_name(trace.format), s[0], s[1],
+                              s[2], s[3]);
+}
+
+}  // namespace burnish::app

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <burnish/combiner.hpp>
+#include <burnish/framebuffer.hpp>
+#include <burnish/machine.hpp>
+#include <burnish/scene.hpp>
+#include <burnish/texture.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// How one pixel of a picture got its colour, step by step: what `burnish trace` prints.
+///
+/// Every number of the machine stands beside the one of exact arithmetic: double precision from the
+/// triangle's snapped corners and its vertices' attributes on, bilinear weights of any fineness,
+/// combiners that round nothing, take 1/2 as 1/2 and stop where the machine stops. Errors are the
+/// machine's number minus the exact one.
+namespace burnish {
+
+/// A number of the road beside what it would be without rounding.
+struct TracedNumber {
+    double value = 0.0;
+    double exact = 0.0;
+    [[nodiscard]] double error() const { return value - exact; }
+};
+
+/// Something that varies over a triangle, at the pixel. Vectors of light are coded x/2 + 1/2, as
+/// the machine takes them.
+struct TracedInterpolant {
+    std::string name;        ///< "uv", "tangent", "half_tangent", "color0", ...
+    std::string components;  ///< a letter for each number: "uv", "xyz", "rgba", "stq"
+    std::vector<TracedNumber> numbers;
+};
+
+/// A texture fetch of one unit.
+struct TracedFetch {
+    int unit = 0;
+    int width = 0, height = 0;  ///< texels
+    Sampler sampler;
+    TracedNumber u, v;                   ///< after the division by q; v grows downward
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< upper left and lower right texel
+    int weight_x = 0, weight_y = 0;      ///< of the right and the lower texels: 1/256, 0 .. 255
+    /// Bytes r, g, b, a of (x0, y0), (x1, y0), (x0, y1), (x1, y1).
+    std::array<std::array<std::uint8_t, 4>, 4> taps{};
+    std::array<int, 4> codes{};  ///< as the register gets them
+    std::array<TracedNumber, 4> color{};
+};
+
+/// One register at one place of the program.
+struct TracedRegister {
+    Register reg = Register::zero;
+    std::array<int, 4> codes{};           ///< value * 255 (nine_bit) or value * 2^14 (wide)
+    std::array<TracedNumber, 4> color{};  ///< r, g, b, a
+    /// False where nothing fills the component, because no part of the program reads it.
+    std::array<bool, 4> filled{};
+    /// Written by the stage; for a constant: another one than before.
+    std::array<bool, 4> changed{};
+};
+
+/// Registers that the program names, and the constants, colours and spares.
+struct TracedStage {
+    std::string name;  ///< "inputs", "stage 0", ..., "final"
+    std::vector<TracedRegister> registers;
+};
+
+/// The fragment that a pixel shows.
+struct TracedFragment {
+    std::size_t object = 0;    ///< of the scene
+    std::string material;      ///< name
+    std::size_t triangle = 0;  ///< of the mesh or of the primitive, in the order of submission
+    bool clipped = false;
+    std::array<std::uint32_t, 3> vertices{};  ///< numbers of its corners
+    std::array<double, 3> barycentrics{};     ///< of them, perspective-correct; they sum to 1
+    double depth = 0.0;                       ///< window depth, [0, 1]
+    TracedNumber one_over_w;
+    std::vector<TracedInterpolant> interpolants;
+    std::vector<TracedFetch> fetches;
+    std::vector<TracedStage> stages;
+    std::array<int, 4> codes{};           ///< of the final combiner's result
+    std::array<TracedNumber, 4> color{};  ///< the same as numbers
+};
+
+struct PixelTrace {
+    int x = 0, y = 0;
+    Machine machine;
+    int one = 0;                             ///< the code of 1 in the machine's registers
+    std::optional<TracedFragment> fragment;  ///< nothing: the background
+    PixelFormat format = PixelFormat::rgba8;
+    std::array<double, 4> stored{};  ///< r, g, b, a as the frame holds them: bytes, words or floats
+};
+
+/// Follows pixel (x, y) of `scene`, at the scene's size and in its format, through the scalar
+/// kernels and the interpreter of programs. `stored` is what Renderer::render leaves there on any
+/// instruction set.
+/// Throws Error{bad_option} for a pixel outside the frame, and what Renderer::render throws.
+PixelTrace trace_pixel(const Scene& scene, int x, int y);
+
+}  // namespace burnish

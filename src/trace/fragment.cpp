@@ -1,0 +1,174 @@
+#include "trace/fragment.hpp"
+
+#include <algorithm>
+
+#include "shade/attributes.hpp"
+#include "trace/exact_inputs.hpp"
+#include "trace/interpolants.hpp"
+#include "trace/texel_bytes.hpp"
+
+namespace burnish {
+
+namespace {
+
+/// The scalar kernels on a packet of one fragment, which lies at the tile's first pixel.
+class LonePacket {
+  public:
+    LonePacket(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
+               std::int32_t x, std::int32_t y)
+        : m_attributes(static_cast<std::size_t>(kMaxAttributes) * kAttributeStride),
+          m_planes(static_cast<std::size_t>(shading.program.plane_count) * kPacketSize) {
+        const AttributePlane constant{1.0F, 0.0F, 0.0F};
+        std::vector<AttributePlane> planes(kMaxInterpolated + 1);
+        attribute_planes(shading, mesh, triangle, planes.data());
+        const Run over_w{planes.data(), 0, 1, x - triangle.reference_x, y - triangle.reference_y};
+        // Divided by the constant 1, the plane of 1/w shows itself.
+        const AttributePlane only[2] = {constant, planes.front()};
+        Run alone = over_w;
+        alone.planes = only;
+        table_reference().attributes(m_packet, {&alone, 1, 1});
+        m_one_over_w = attribute(0);
+        table_reference().attributes(m_packet, {&over_w, 1, shading.interpolated()});
+    }
+
+    Packet& packet() { return m_packet; }
+    [[nodiscard]] float attribute(int k) const {
+        return m_attributes[static_cast<std::size_t>(k) * kAttributeStride];
+    }
+    [[nodiscard]] int plane(int k) const {
+        return m_planes[static_cast<std::size_t>(k) * kPacketSize];
+    }
+    [[nodiscard]] float one_over_w() const { return m_one_over_w; }
+    [[nodiscard]] std::int32_t texel() const { return m_texel[0]; }
+    [[nodiscard]] int weight_x() const { return m_weight_x[0]; }
+    [[nodiscard]] int weight_y() const { return m_weight_y[0]; }
+
+  private:
+    AlignedVector<float> m_attributes;
+    AlignedVector<std::int16_t> m_planes;
+    std::uint16_t m_pixel[1] = {0};
+    std::int32_t m_texel[1] = {0};
+    std::int16_t m_weight_x[1] = {0}, m_weight_y[1] = {0};
+    float m_one_over_w = 0.0F;
+    Packet m_packet{1,       m_pixel,    m_attributes.data(), m_planes.data(),
+                    m_texel, m_weight_x, m_weight_y};
+};
+
+TracedNumber number(float value, double exact) {
+    return {static_cast<double>(value), exact};
+}
+
+/// The neighbour that a texture keeps beside texel `at` of `size`.
+int neighbour(int at, int size, Wrap wrap) {
+    if (at + 1 < size) return at + 1;
+    return wrap == Wrap::repeat ? 0 : size - 1;
+}
+
+/// Runs the input operations of a shading and notes what they give.
+class InputTracer {
+  public:
+    InputTracer(const Shading& shading, LonePacket& packet, ExactInputs& exact)
+        : m_shading(shading), m_packet(packet), m_exact(exact) {}
+
+    void run(TracedFragment& out) {
+        for (const InputOp& op : m_shading.inputs) {
+            feed_input(op, m_shading.program.numbers, table_reference(), m_packet.packet());
+            m_exact.feed(op);
+            if (const auto* address = std::get_if<AddressCtx>(&op)) m_address = *address;
+            if (const auto* fetch = std::get_if<FetchCtx>(&op)) {
+                for (int k = 0; k < fetch->count; ++k) add_fetch(*fetch, k, out);
+            }
+        }
+        for (const InterpolantPlanes& group : interpolant_planes(m_shading)) {
+            TracedInterpolant traced{group.name, group.components, {}};
+            for (const int plane : group.planes) {
+                traced.numbers.push_back(
+                    number(m_packet.attribute(plane), m_exact.attribute(plane)));
+            }
+            out.interpolants.push_back(std::move(traced));
+        }
+    }
+
+    /// Registers before the program; units that are off read (0, 0, 0, 1).
+    [[nodiscard]] FragmentInputs registers() const {
+        FragmentInputs result;
+        for (auto& filled : result.filled.values) filled.fill(true);
+        const BoundProgram& program = m_shading.program;
+        for (const Register reg : {Register::col0, Register::col1}) {
+            for (std::size_t c = 0; c < 4; ++c) take(reg, c, result);
+        }
+        for (int unit = 0; unit < 16; ++unit) {
+            const auto index = static_cast<std::size_t>(unit);
+            const bool enabled = index < m_shading.textures.size() && m_shading.textures[index];
+            if (!enabled) {
+                result.codes[tex(unit)][3] = code_of_one(program.numbers);
+                result.exact[tex(unit)][3] = 1.0;
+                continue;
+            }
+            for (std::size_t c = 0; c < 4; ++c) take(tex(unit), c, result);
+        }
+        result.filled[Register::spare0][3] = result.filled[Register::tex0][3];
+        return result;
+    }
+
+  private:
+    void take(Register reg, std::size_t c, FragmentInputs& to) const {
+        const int plane = m_shading.program.input[static_cast<std::size_t>(reg)][c];
+        to.filled[reg][c] = plane >= 0;
+        if (plane < 0) return;
+        to.codes[reg][c] = m_packet.plane(plane);
+        to.exact[reg][c] = m_exact.plane(plane);
+    }
+
+    void add_fetch(const FetchCtx& ctx, int k, TracedFragment& out) const {
+        const std::size_t unit = unit_of_plane(m_shading, ctx.plane[k]);
+        const Texture& texture = *m_shading.textures[unit];
+        TracedFetch fetch;
+        fetch.unit = static_cast<int>(unit);
+        fetch.width = texture.width();
+        fetch.height = texture.height();
+        fetch.sampler = texture.sampler();
+        const float q = m_address.q < 0 ? 1.0F : m_packet.attribute(m_address.q);
+        fetch.u = number(m_packet.attribute(m_address.u) / q, m_exact.u());
+        fetch.v = number(m_packet.attribute(m_address.v) / q, m_exact.v());
+        fetch.x0 = m_packet.texel() % ctx.pitch / 4;
+        fetch.y0 = m_packet.texel() / ctx.pitch;
+        fetch.x1 = neighbour(fetch.x0, fetch.width, fetch.sampler.wrap_s);
+        fetch.y1 = neighbour(fetch.y0, fetch.height, fetch.sampler.wrap_t);
+        fetch.weight_x = m_packet.weight_x();
+        fetch.weight_y = m_packet.weight_y();
+        const double one = code_of_one(m_shading.program.numbers);
+        for (int c = 0; c < 4; ++c) {
+            const auto at = static_cast<std::size_t>(c);
+            for (int tap = 0; tap < 4; ++tap) {
+                fetch.taps[static_cast<std::size_t>(tap)][at] =
+                    texel_byte(texture, fetch.x0 + tap % 2, fetch.y0 + tap / 2, c);
+            }
+            const int plane = ctx.plane[k] + c;
+            fetch.codes[at] = m_packet.plane(plane);
+            fetch.color[at] = {fetch.codes[at] / one, m_exact.plane(plane)};
+        }
+        out.fetches.push_back(fetch);
+    }
+
+    const Shading& m_shading;
+    LonePacket& m_packet;
+    ExactInputs& m_exact;
+    AddressCtx m_address{};
+};
+
+}  // namespace
+
+FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
+                            std::int32_t y, TracedFragment& out) {
+    const Barycentrics place = barycentrics(draw.mesh(), triangle, x, y);
+    LonePacket packet(draw.shading, draw.mesh(), triangle, x, y);
+    ExactInputs exact(draw.shading, triangle, place);
+    out.barycentrics = place.weight;
+    out.one_over_w = number(packet.one_over_w(), place.one_over_w);
+    InputTracer tracer(draw.shading, packet, exact);
+    tracer.run(out);
+    return tracer.registers();
+}
+
+}  // namespace burnish

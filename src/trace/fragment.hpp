@@ -1,0 +1,24 @@
+#pragma once
+
+#include <burnish/trace.hpp>
+
+#include "draw.hpp"
+#include "machine/interpreter.hpp"
+#include "trace/visible.hpp"
+
+namespace burnish {
+
+/// What the program of a fragment starts from.
+struct FragmentInputs {
+    RegisterFile codes;
+    RealRegisters exact;
+    Registers<bool> filled;  ///< false: an input that nothing reads and hence nothing feeds
+};
+
+/// Interpolates at pixel (x, y) of the window and feeds the registers: by the scalar kernels, and
+/// exactly. `draw` was prepared with Wanted::everything. Sets barycentrics, interpolants and
+/// fetches of `out`.
+FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
+                            std::int32_t y, TracedFragment& out);
+
+}  // namespace burnish

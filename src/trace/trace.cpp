@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <burnish/error.hpp>
+#include <burnish/trace.hpp>
+#include <cstring>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "image/tile_image.hpp"
+#include "raster/tile.hpp"
+#include "trace/fragment.hpp"
+#include "trace/program.hpp"
+#include "trace/visible.hpp"
+
+namespace burnish {
+
+namespace {
+
+/// The renderer's road up to the screen, for one look.
+class TracedFrame {
+  public:
+    explicit TracedFrame(const Scene& scene)
+        : m_scene(scene),
+          m_view{&scene, make_view(scene.camera, scene.width, scene.height),
+                 make_viewport(scene.machine, scene.width, scene.height)} {
+        for (const Object& object : scene.objects) {
+            m_draws.push_back(std::make_unique<Draw>());
+            prepare_draw(*m_draws.back(), m_view, object, m_maps);
+            transform_draw(*m_draws.back(), m_view, object, table_reference(), m_pool);
+        }
+    }
+
+    [[nodiscard]] std::optional<VisibleTriangle> visible(int x, int y) const {
+        return visible_triangle({m_draws, m_view.viewport, {m_scene.width, m_scene.height}}, x, y);
+    }
+
+    TracedFragment fragment(const VisibleTriangle& seen, int x, int y) {
+        const std::size_t number = seen.setup.draw;
+        const Object& object = m_scene.objects[number];
+        const ProgramMaterial program = program_of(object, m_scene, m_maps);
+        Draw draw;
+        prepare_draw(draw, m_view, object, program, {.everything = true});
+        transform_draw(draw, m_view, object, table_reference(), m_pool);
+
+        TracedFragment out;
+        out.object = number;
+        out.material = object.material ? object.material->name : Material{}.name;
+        out.triangle = seen.triangle;
+        out.clipped = seen.setup.clipped != 0;
+        out.depth = static_cast<double>(seen.depth);
+        const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, out);
+        name_corners(draw, seen.setup, out);
+        trace_program(program, m_scene.machine, inputs, out);
+        return out;
+    }
+
+  private:
+    /// Setup exchanges two corners of triangles that wind the other way round; here they stand as
+    /// they were submitted.
+    static void name_corners(const Draw& draw, const SetupTriangle& setup, TracedFragment& out) {
+        for (std::size_t i = 0; i < 3; ++i) out.vertices[i] = setup.vertex[i];
+        if (out.vertices[1] == draw.indices[3 * out.triangle + 1]) return;
+        std::swap(out.vertices[1], out.vertices[2]);
+        std::swap(out.barycentrics[1], out.barycentrics[2]);
+    }
+
+    const Scene& m_scene;
+    FrameView m_view;
+    WorkerPool m_pool{1};
+    DerivedMaps m_maps;
+    std::vector<std::unique_ptr<Draw>> m_draws;
+};
+
+/// Channels of the tile's first pixel as numbers.
+std::array<double, 4> channels(const TileImage& image) {
+    std::array<double, 4> result{};
+    const auto read = [&]<class Channel>(Channel) {
+        Channel values[4];
+        std::memcpy(values, image.pixels(), sizeof values);
+        for (std::size_t c = 0; c < 4; ++c) result[c] = static_cast<double>(values[c]);
+    };
+    switch (image.format()) {
+        case PixelFormat::rgba8:
+            read(std::uint8_t{});
+            break;
+        case PixelFormat::rgba16:
+            read(std::uint16_t{});
+            break;
+        case PixelFormat::rgba32f:
+            read(float{});
+            break;
+    }
+    return result;
+}
+
+/// What the frame keeps of a fragment, or of none.
+std::array<double, 4> stored_pixel(const Scene& scene,
+                                   const std::optional<TracedFragment>& fragment) {
+    TileImage image(scene.format);
+    image.set_background(scene.background);
+    image.clear();
+    if (!fragment) return channels(image);
+    AlignedVector<std::int16_t> planes(4 * kPacketSize);
+    for (std::size_t c = 0; c < 4; ++c) {
+        planes[c * kPacketSize] = static_cast<std::int16_t>(fragment->codes[c]);
+    }
+    const std::uint16_t pixel = 0;
+    Packet packet{1, &pixel, nullptr, planes.data(), nullptr, nullptr, nullptr};
+    const StoreCtx store{{0, 1, 2, 3}, static_cast<StoreFormat>(scene.format), image.pixels()};
+    const bool nine_bit = scene.machine.numbers == NumberModel::nine_bit;
+    (nine_bit ? table_reference().store_nine_bit : table_reference().store_wide)(packet, store);
+    return channels(image);
+}
+
+}  // namespace
+
+PixelTrace trace_pixel(const Scene& scene, int x, int y) {
+    if (x < 0 || y < 0 || x >= scene.width || y >= scene.height) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("pixel {},{}, expected one inside the frame of {}x{} pixels", x, y,
+                                scene.width, scene.height));
+    }
+    scene.machine.validate();
+    PixelTrace trace;
+    trace.x = x;
+    trace.y = y;
+    trace.machine = scene.machine;
+    trace.one = code_of_one(scene.machine.numbers);
+    trace.format = scene.format;
+    TracedFrame frame(scene);
+    if (const auto seen = frame.visible(x, y)) trace.fragment = frame.fragment(*seen, x, y);
+    trace.stored = stored_pixel(scene, trace.fragment);
+    return trace;
+}
+
+}  // namespace burnish

@@ -1,0 +1,191 @@
+// Registers as pictures: every register after every stage, against the trace of each pixel.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <burnish/error.hpp>
+#include <burnish/trace.hpp>
+#include <cstring>
+#include <string>
+
+#include "tests/scenes.hpp"
+
+namespace burnish {
+namespace {
+
+Scene ball_scene(const Machine& machine) {
+    Scene scene = scenes::lit_scene(machine, 24, 18);
+    scene.background = {0.2F, 0.4F, 0.6F, 1.0F};
+    scene.lights[0].color = glm::vec3(1.0F);
+    auto material = scenes::brushed();
+    if (machine.texture_units < 3) material->specular_map = nullptr;
+    scene.objects.push_back({Mesh(shapes::sphere(12, 7)), material, glm::mat4(1.0F), {}});
+    return scene;
+}
+
+Scene raw_scene(const Machine& machine) {
+    Scene scene = scenes::machine();
+    scene.machine = machine;
+    scene.machine.general_stages = 16;
+    scene.width = 100;
+    scene.height = 60;
+    scene.background = {0.2F, 0.4F, 0.6F, 1.0F};
+    return scene;
+}
+
+template <class Channel>
+std::array<Channel, 4> pixel(const Framebuffer& frame, int x, int y) {
+    std::array<Channel, 4> v;
+    std::memcpy(v.data(), frame.row(y) + static_cast<std::size_t>(x) * sizeof v, sizeof v);
+    return v;
+}
+
+/// value/2 + 1/2 as docs/numbers.md rounds it: half up in the machine, then to the byte.
+int coded_byte(int code, int one) {
+    const int half = std::clamp((code + one + 1) >> 1, 0, one);
+    return one == 255 ? half : (255 * half + 8192) >> 14;
+}
+
+struct Case {
+    const char* name;
+    Scene (*make)(const Machine&);
+    const char* machine;
+};
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name << " on " << c.machine;
+}
+
+class ShownRegisters : public testing::TestWithParam<Case> {
+  protected:
+    void SetUp() override {
+        m_scene = GetParam().make(machine_profile(GetParam().machine));
+        for (int y = 0; y < m_scene.height; ++y) {
+            for (int x = 0; x < m_scene.width; ++x) {
+                m_traces.push_back(trace_pixel(m_scene, x, y));
+                if (m_traces.back().fragment) m_found = m_traces.size();
+            }
+        }
+        ASSERT_GT(m_found, 0U);
+        m_some = &*m_traces[m_found - 1].fragment;
+    }
+
+    /// Row `r` of stage `s` of every traced pixel against pictures of it.
+    void check(std::size_t s, std::size_t r, const ShownRegister& shown, const std::string& isa) {
+        Renderer renderer({.threads = 2, .isa = isa});
+        Framebuffer floats(m_scene.width, m_scene.height, PixelFormat::rgba32f);
+        Framebuffer bytes(m_scene.width, m_scene.height, PixelFormat::rgba8);
+        renderer.render(m_scene, floats, shown);
+        renderer.render(m_scene, bytes, shown);
+        for (const PixelTrace& t : m_traces) {
+            const auto real = pixel<float>(floats, t.x, t.y);
+            const auto byte = pixel<std::uint8_t>(bytes, t.x, t.y);
+            if (!t.fragment) {
+                ASSERT_EQ(byte, (std::array<std::uint8_t, 4>{51, 102, 153, 255}));
+                continue;
+            }
+            const TracedRegister& row = t.fragment->stages.at(s).registers.at(r);
+            for (std::size_t c = 0; c < 4; ++c) {
+                if (!row.filled[c]) continue;
+                const std::string where = std::string(register_name(row.reg)) + " of " +
+                                          t.fragment->stages[s].name + ", component " +
+                                          std::to_string(c) + ", " + isa;
+                ASSERT_EQ(real[c], static_cast<float>(row.codes[c]) / static_cast<float>(t.one))
+                    << where;
+                ASSERT_EQ(byte[c], coded_byte(row.codes[c], t.one)) << where;
+            }
+        }
+    }
+
+    Scene m_scene;
+    std::vector<PixelTrace> m_traces;
+    std::size_t m_found = 0;
+    const TracedFragment* m_some = nullptr;
+};
+
+TEST_P(ShownRegisters, AreThoseOfTheTrace) {
+    std::size_t pictures = 0;
+    const std::size_t stages = m_some->stages.size() - 1;  // without the final combiner
+    for (std::size_t s = 0; s < stages; ++s) {
+        const std::vector<TracedRegister>& rows = m_some->stages[s].registers;
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            const ShownRegister shown{rows[r].reg, s};
+            for (const IsaInfo& isa : instruction_sets()) {
+                if (isa.available) check(s, r, shown, std::string(isa.name));
+                ++pictures;
+            }
+            if (HasFatalFailure()) return;
+        }
+    }
+    EXPECT_GT(pictures, 50U);
+}
+
+// What only the final combiner knows: not negative, so not coded, and it stops at 1.
+TEST_P(ShownRegisters, SumAndProductOfTheFinalCombiner) {
+    for (const Register reg : {Register::color_sum, Register::final_product}) {
+        Framebuffer floats(m_scene.width, m_scene.height, PixelFormat::rgba32f);
+        Renderer().render(m_scene, floats, ShownRegister{reg});
+        for (const PixelTrace& t : m_traces) {
+            if (!t.fragment) continue;
+            const auto& rows = t.fragment->stages.back().registers;
+            const auto row = std::find_if(rows.begin(), rows.end(),
+                                          [&](const TracedRegister& r) { return r.reg == reg; });
+            ASSERT_NE(row, rows.end());
+            const auto got = pixel<float>(floats, t.x, t.y);
+            for (std::size_t c = 0; c < 4; ++c) {
+                if (!row->filled[c]) continue;
+                ASSERT_EQ(got[c], static_cast<float>(std::min(row->codes[c], t.one)) /
+                                      static_cast<float>(t.one))
+                    << register_name(reg);
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShownRegisters,
+                         testing::Values(Case{"ball", ball_scene, "geforce256"},
+                                         Case{"ball", ball_scene, "nv2a"},
+                                         Case{"ball", ball_scene, "ideal"},
+                                         Case{"raw", raw_scene, "nv2a"},
+                                         Case{"raw", raw_scene, "ideal"}),
+                         [](const testing::TestParamInfo<Case>& test) {
+                             return std::string(test.param.name) + "_" + test.param.machine;
+                         });
+
+TEST(ShownRegister, BeyondTheLastStageIsTheLast) {
+    const Scene scene = ball_scene(machine_profile("nv2a"));
+    Framebuffer last(24, 18), beyond(24, 18), unnumbered(24, 18);
+    Renderer renderer;
+    renderer.render(scene, last, ShownRegister{Register::spare1, 5});
+    renderer.render(scene, beyond, ShownRegister{Register::spare1, 14});
+    renderer.render(scene, unnumbered, ShownRegister{Register::spare1});
+    EXPECT_EQ(std::memcmp(last.pixels(), beyond.pixels(), 24 * 18 * 4), 0);
+    EXPECT_EQ(std::memcmp(last.pixels(), unnumbered.pixels(), 24 * 18 * 4), 0);
+}
+
+TEST(ShownRegister, IsForOneCallOnly) {
+    const Scene scene = ball_scene(machine_profile("nv2a"));
+    Framebuffer before(24, 18), shown(24, 18), after(24, 18);
+    Renderer renderer;
+    renderer.render(scene, before);
+    renderer.render(scene, shown, ShownRegister{Register::tex0});
+    renderer.render(scene, after);
+    EXPECT_NE(std::memcmp(before.pixels(), shown.pixels(), 24 * 18 * 4), 0);
+    EXPECT_EQ(std::memcmp(before.pixels(), after.pixels(), 24 * 18 * 4), 0);
+}
+
+TEST(ShownRegister, UnknownOnesAreErrors) {
+    const Scene scene = ball_scene(machine_profile("geforce256"));
+    Framebuffer frame(24, 18);
+    Renderer renderer;
+    for (const Register reg : {Register::tex2, Register::discard}) {
+        try {
+            renderer.render(scene, frame, ShownRegister{reg});
+            ADD_FAILURE() << register_name(reg);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_option) << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burnish

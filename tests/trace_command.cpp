@@ -1,0 +1,181 @@
+// `burnish trace` as a shell sees it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <burnish/files.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/json.hpp"
+#include "tests/run_command.hpp"
+
+namespace burnish {
+namespace {
+
+class TraceCommand : public Command {
+  protected:
+    /// A quad over the left half of 8 x 4 pixels, half red; its alpha is 51.
+    void write_quad() {
+        write(path("q.toml"), R"(schema = 1
+[output]
+width = 8
+height = 4
+background = [0.2, 0.4, 0.6, 1.0]
+[machine]
+profile = "nv2a"
+[[objects]]
+space = "window"
+primitive = "quads"
+vertices = [
+  { position = [0.0, 0.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
+  { position = [4.0, 0.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
+  { position = [4.0, 4.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
+  { position = [0.0, 4.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
+]
+)");
+    }
+    Json json(const std::string& arguments) {
+        const Result result = run("trace " + arguments + " --json");
+        EXPECT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+        return Json::parse(result.out);
+    }
+    static const Json& row(const Json& stage, const std::string& name) {
+        for (const Json& r : stage["registers"].list) {
+            if (r["register"].text == name) return r;
+        }
+        throw std::runtime_error("no register " + name);
+    }
+};
+
+std::vector<double> numbers(const Json& list) {
+    std::vector<double> result;
+    for (const Json& x : list.list) result.push_back(x.number);
+    return result;
+}
+
+TEST_F(TraceCommand, JsonHasTheWholeRoad) {
+    write_quad();
+    const Json trace = json("q.toml --pixel 1,3");
+    EXPECT_EQ(numbers(trace["pixel"]), (std::vector<double>{1, 3}));
+    EXPECT_EQ(numbers(trace["size"]), (std::vector<double>{8, 4}));
+    EXPECT_EQ(trace["machine"].text, "nv2a");
+    EXPECT_EQ(trace["one"].number, 255);
+    EXPECT_EQ(trace["format"].text, "rgba8");
+    EXPECT_EQ(numbers(trace["stored"]), (std::vector<double>{128, 0, 0, 51}));
+    const Json& f = trace["fragment"];
+    EXPECT_EQ(f["object"].number, 0);
+    EXPECT_EQ(f["triangle"].number, 1);
+    EXPECT_EQ(f["depth"].number, 0.5);
+    EXPECT_FALSE(f["clipped"].boolean);
+    EXPECT_EQ(numbers(f["vertices"]), (std::vector<double>{0, 2, 3}));
+    const std::vector<double> b = numbers(f["barycentrics"]);
+    EXPECT_NEAR(b[0] + b[1] + b[2], 1.0, 1e-15);
+    EXPECT_EQ(f["one_over_w"]["value"].number, 1.0);
+    EXPECT_EQ(f["interpolants"][0]["name"].text, "color0");
+    EXPECT_EQ(f["fetches"].list.size(), 0U);
+    const Json& col0 = row(f["stages"][0], "col0");
+    EXPECT_EQ(numbers(col0["codes"]), (std::vector<double>{128, 0, 0, 51}));
+    EXPECT_NEAR(col0["exact"][0].number, 0.5, 1e-7);
+    EXPECT_NEAR(col0["error"][0].number, 0.5 / 255, 1e-7);
+    EXPECT_EQ(f["stages"].list.back()["name"].text, "final");
+    EXPECT_EQ(numbers(f["codes"]), (std::vector<double>{128, 0, 0, 51}));
+}
+
+TEST_F(TraceCommand, TextIsForAPerson) {
+    write_quad();
+    const Result result = run("trace q.toml --pixel 1,3");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("pixel 1,3 of 8 x 4, machine nv2a, 1 is code 255\n"))
+        << result.out;
+    EXPECT_SAYS(result.out, "triangle 1\n");
+    EXPECT_SAYS(result.out, "\n  depth 0.5\n");
+    EXPECT_SAYS(result.out, "\n  corner 1: vertex 2, weight 0.375000000\n");
+    EXPECT_SAYS(result.out, "\ninputs ");
+    EXPECT_SAYS(result.out, "\nfinal ");
+    EXPECT_SAYS(result.out,
+                "\n  col0             128      0      0     51  0.5020  0.0000  0.0000  0.2000");
+    EXPECT_TRUE(result.out.ends_with("\nstored, rgba8: 128 0 0 51\n")) << result.out;
+    EXPECT_EQ(entries(), (std::vector<std::string>{"q.toml"}));
+}
+
+TEST_F(TraceCommand, BackgroundPixels) {
+    write_quad();
+    EXPECT_EQ(run("trace q.toml --pixel 6,0").out,
+              "pixel 6,0 of 8 x 4, machine nv2a, 1 is code 255\nbackground\n"
+              "stored, rgba8: 51 102 153 255\n");
+    const Json trace = json("q.toml --pixel 6,0");
+    EXPECT_EQ(trace["fragment"].kind, Json::Kind::null);
+    EXPECT_EQ(numbers(trace["stored"]), (std::vector<double>{51, 102, 153, 255}));
+}
+
+TEST_F(TraceCommand, TakesTheOptionsOfAPicture) {
+    write_scene("s.toml");
+    const std::string at = "s.toml --pixel 20,15 ";
+    EXPECT_EQ(json(at + "--machine nv2a")["one"].number, 255);
+    EXPECT_EQ(json(at)["one"].number, 16384);
+    EXPECT_EQ(json(at + "-D output.format=\"\\\"rgba16\\\"\"")["format"].text, "rgba16");
+    EXPECT_EQ(numbers(json("s.toml --size 11x7 --pixel 10,6")["size"]),
+              (std::vector<double>{11, 7}));
+    const std::string plain = run("trace " + at + "--json --isa reference --threads 1").out;
+    EXPECT_EQ(run("trace " + at + "--json --threads 3").out, plain);
+    for (const char* option : {"--camera-azimuth 30", "--light 0,-1,0", "--camera-zoom 2",
+                               "--machine geforce256", "--half-vector vertex"})
+        EXPECT_NE(run("trace " + at + "--json " + option).out, plain) << option;
+}
+
+TEST_F(TraceCommand, BareMeshes) {
+    ASSERT_EQ(run("bake mesh sphere --columns 16 --rows 8 -o ball.ply").code, 0);
+    const Json trace = json("ball.ply --size 32x32 --pixel 16,16 --quiet");
+    EXPECT_EQ(trace["machine"].text, "ideal");
+    EXPECT_EQ(trace["fragment"]["fetches"][0]["taps"].list.size(), 4U);
+    EXPECT_EQ(trace["fragment"]["fetches"][0]["texels"].list.size(), 4U);
+}
+
+TEST_F(TraceCommand, WrongPixelsAreWrongUsage) {
+    write_quad();
+    expect_failure("trace q.toml", 2, "--pixel");
+    expect_failure("trace q.toml --pixel 8,0", 2,
+                   "--pixel 8,0, expected one inside the picture of 8 x 4 pixels");
+    expect_failure("trace q.toml --pixel 0,4", 2, "--pixel 0,4");
+    for (const char* bad : {"3", "-1,2", "1,-2", "1,2,3", "1.5,2", "a,b", "1,", "99999999999,1"})
+        expect_failure(fmt::format("trace q.toml --pixel={}", bad), 2,
+                       fmt::format("--pixel {}", bad));
+    expect_failure("trace q.toml --pixle 1,2", 2, "did you mean '--pixel'?");
+    expect_failure("trace q.toml --pixel 1,2 -o x.png", 2, "");
+    expect_failure("trace missing.toml --pixel 1,2", 3, "missing.toml");
+    write_scene("up.toml", "[camera]\nposition = [0.0, 3.0, 0.0]\n");
+    expect_failure("trace up.toml --pixel 1,2", 3, "camera");
+}
+
+// 128 is (128 + 255)/2, rounded up, of a byte; files of floats hold 128/255.
+TEST_F(TraceCommand, RegistersAsPictures) {
+    write_quad();
+    ASSERT_EQ(run("render q.toml --aov register:col0@inputs -o bytes.png").code, 0);
+    const Image8 bytes = load_image(path("bytes.png"));
+    const std::array<int, 4> coded{192, 128, 128, 153};
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(bytes.at(1, 3)[c], coded[static_cast<std::size_t>(c)]) << c;
+    EXPECT_EQ(bytes.at(6, 0)[0], 51) << "the background stays";
+    ASSERT_EQ(run("render q.toml --aov register:col0 -o floats.exr").code, 0);
+    EXPECT_EQ(load_image(path("floats.exr")).at(1, 3)[0], 128);
+    ASSERT_EQ(run("render q.toml --aov register:spare1@final --samples 4 -o zero.png").code, 0);
+    EXPECT_EQ(load_image(path("zero.png")).at(1, 3)[0], 128);
+    ASSERT_EQ(run("render q.toml --aov register:color_sum -o sum.png").code, 0);
+    EXPECT_EQ(load_image(path("sum.png")).at(1, 3)[0], 0);
+}
+
+TEST_F(TraceCommand, UnknownRegistersAreWrongUsage) {
+    write_quad();
+    expect_failure("render q.toml --aov colour", 2, "expected register:NAME");
+    expect_failure("render q.toml --aov register:spar0", 2, "did you mean 'spare0'?");
+    expect_failure("render q.toml --aov register:discard", 2, "unknown register 'discard'");
+    for (const char* stage : {"-1", "16", "1x", "", "last"})
+        expect_failure(fmt::format("render q.toml --aov register:tex0@{}", stage), 2,
+                       "a stage of 0 .. 15, inputs or final");
+    expect_failure("render q.toml --aov register:tex4", 3, "tex0 .. tex3");
+}
+
+}  // namespace
+}  // namespace burnish
