@@ -45,7 +45,7 @@ Parsed<TextureShader> parse_texture_shader(std::string_view text);
 /// of zero, and constants beyond [0, 1], which are clamped; a program without general stages comes
 /// back with one that is idle. Numbers in it have as many digits as a float needs.
 /// Throws Error{bad_program} for a program that no machine can run or no text can say: a fog colour
-/// other than 0 belongs to the material.
+/// and switches that OpenGL never had (mux_bit, blue to alpha, complements) belong to the material.
 std::string print_combiners(const CombinerProgram& program);
 
 /// Canonical `!!TS1.0` text with four statements. Throws Error{bad_program} for what no text can
