@@ -268,10 +268,10 @@ constexpr int kTexture = 256;                         // texels, both ways
 constexpr std::int32_t kPitch = 4 * (kTexture + 16);  // bytes
 
 void add_texels() {
-    static std::vector<std::int8_t> texels;
+    static std::vector<std::uint8_t> texels;
     Random random(4);
     texels.resize(static_cast<std::size_t>(kPitch * (kTexture + 1)));
-    for (std::int8_t& t : texels) t = static_cast<std::int8_t>(random.between(-128, 127));
+    for (std::uint8_t& t : texels) t = static_cast<std::uint8_t>(random.below(256));
     PacketMemory packet;
     // A quarter turn of the texture at one texel per pixel, as four blocks see it.
     for (int i = 0; i < kPacketSize; ++i) {
@@ -374,6 +374,19 @@ void add_portions(const std::string& name, PacketStage<PortionCtx> stage,
                 portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::none), both);
     add_portion("sum", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum), both);
     add_portion("mux", portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::mux), both);
+    // The two stages of the anisotropic lobe.
+    PortionCtx dots = portion(ProductKind::dot, ProductKind::dot, ThirdKind::none);
+    dots.a.mapping = dots.b.mapping = dots.c.mapping = dots.d.mapping = 2;
+    dots.d = dots.b;
+    dots.components = 1;
+    dots.scale = OutputScale::four;
+    add_portion("two_dots_of_expanded", dots, {.planes = {14, 17}});
+    PortionCtx squares = portion(ProductKind::multiply, ProductKind::multiply, ThirdKind::sum);
+    squares.b = squares.a;
+    squares.d = squares.c;
+    squares.components = 1;
+    squares.ab_out[0] = kTrash;
+    add_portion("sum_of_squares", squares, {.planes = {17}});
 }
 
 void add_final(const std::string& name, PacketStage<FinalCtx> stage, const PacketMemory& packet) {

@@ -92,42 +92,54 @@ struct FetchPatterns {
     }
 };
 
-/// (256 - wx) * left + wx * right of two rows of texels that are stored as value - 128: exact, from
-/// -32768 to 32512. 256 does not fit a byte, so one more left is added by a second product.
-I16 lerp_row(I16 texels, I16 weight_bytes) {
-    return mul_add_bytes(weight_bytes, texels) + mul_add_bytes(I16(1), texels);
-}
-
-/// Vertical lerp and number format of the nine-bit model.
-struct FetchNineBit {
-    static I16 combine(I16 top, I16 bottom, I16 weight_top, I16 weight_bottom) {
-        // 0x8080: back from value - 128 in 1/256, plus one half.
-        const I16 bias(static_cast<std::int16_t>(0x8080));
-        const I16 t = shift_right_logical(top + bias, 8), b = shift_right_logical(bottom + bias, 8);
-        return shift_right_logical(t * weight_top + b * weight_bottom + I16(128), 8);
+/// The bilinear filter of the nine-bit model, for the fragments of one vector. A lerp
+/// ((256 - w) x + w y + 128) >> 8 is x + ((w (y - x) + 128) >> 8), which is one rounding product.
+struct FilterNineBit {
+    FilterNineBit(I16 wx, I16 wy, I16 word_pair)
+        : across(shuffle_bytes(wx << 7, word_pair)), down(shuffle_bytes(wy << 7, word_pair)) {}
+    I16 row(I16 texels) const {
+        const I16 left = texels & I16(255), right_minus_left = mul_add_bytes(texels, I16(0x01ff));
+        return left + mul_round(right_minus_left, across);
     }
+    I16 operator()(I16 top_texels, I16 bottom_texels) const {
+        const I16 top = row(top_texels), bottom = row(bottom_texels);
+        return top + mul_round(bottom - top, down);
+    }
+    I16 across, down;
 };
 
-struct FetchWide {
-    static I16 combine(I16 top, I16 bottom, I16 weight_top, I16 weight_bottom) {
-        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), zip_lo16(weight_top, weight_bottom));
-        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), zip_hi16(weight_top, weight_bottom));
-        const I16 v = narrow((lo + I32(128)) >> 8, (hi + I32(128)) >> 8) ^
-                      I16(static_cast<std::int16_t>(0x8000));
-        const I16 x = v + shift_right_logical(v, 8);
-        return shift_right_logical(shift_right_logical(x, 1) + I16(1), 1);
+/// The same for the wide model, exact until the end.
+struct FilterWide {
+    FilterWide(I16 wx, I16 wy, I16 word_pair)
+        : across(shuffle_bytes((I16(255) - wx) | (wx << 8), word_pair)) {
+        const I16 bottom = shuffle_bytes(wy, word_pair);
+        down = zip_lo16(I16(256) - bottom, bottom);  // and zip_hi16: words repeat
     }
+    /// (256 - wx) * left + wx * right of value - 128, from -32768 to 32512. 256 does not fit a
+    /// byte, so one more left is added by a second product.
+    I16 row(I16 texels) const {
+        const I16 biased = texels ^ I16(static_cast<std::int16_t>(0x8080));
+        return mul_add_bytes(across, biased) + mul_add_bytes(I16(1), biased);
+    }
+    I16 operator()(I16 top_texels, I16 bottom_texels) const {
+        const I16 top = row(top_texels), bottom = row(bottom_texels);
+        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), down) + I32(128);
+        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), down) + I32(128);
+        const I16 v = narrow(lo >> 8, hi >> 8) ^ I16(static_cast<std::int16_t>(0x8000));
+        return average(shift_right_logical(v + shift_right_logical(v, 8), 1), I16(0));
+    }
+    I16 across, down;
 };
 
 /// 64-bit loads of texel pairs, weighted where they are, transposed to planes. Vector k of four
 /// holds fragments 8 p + 2 k and 8 p + 2 k + 1 in lane p; what comes out is in order. Weights and
 /// offsets serve all textures, whose loads are in flight together.
-template <class Model>
+template <class Filter>
 void fetch(Packet& packet, const FetchCtx& ctx) {
     const FetchPatterns patterns;
     const std::ptrdiff_t pitch = ctx.pitch;
     const int textures = ctx.count;
-    const std::int8_t* texels[FetchCtx::kMaxTextures];
+    const std::uint8_t* texels[FetchCtx::kMaxTextures];
     std::int16_t* planes[FetchCtx::kMaxTextures];
     for (int t = 0; t < textures; ++t) {
         texels[t] = ctx.texels[t];
@@ -138,21 +150,19 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes) {
         const I16 wx = load(weight_x + i), wy = load(weight_y + i);
-        const I16 weight_bytes = (I16(255) - wx) | (wx << 8);
-        I16 bytes[4], up[4], down[4];
-        for (int k = 0; k < 4; ++k) {
-            bytes[k] = shuffle_bytes(weight_bytes, patterns.word_pair[k]);
-            down[k] = shuffle_bytes(wy, patterns.word_pair[k]);
-            up[k] = I16(256) - down[k];
-        }
+        const Filter filter[4] = {
+            {wx, wy, patterns.word_pair[0]},
+            {wx, wy, patterns.word_pair[1]},
+            {wx, wy, patterns.word_pair[2]},
+            {wx, wy, patterns.word_pair[3]},
+        };
         for (int t = 0; t < textures; ++t) {
-            const std::int8_t *const upper = texels[t], *const lower = texels[t] + pitch;
+            const std::uint8_t *const upper = texels[t], *const lower = texels[t] + pitch;
             const auto filtered = [&](int k) __attribute__((always_inline)) {
                 const std::int32_t* at = texel + i + 2 * k;
                 const I16 top = shuffle_bytes(load_pairs(upper, at), patterns.interleave);
                 const I16 bottom = shuffle_bytes(load_pairs(lower, at), patterns.interleave);
-                return Model::combine(lerp_row(top, bytes[k]), lerp_row(bottom, bytes[k]), up[k],
-                                      down[k]);
+                return filter[k](top, bottom);
             };
             // Four by name: as a loop they are left rolled up, and pass through memory.
             const I16 v0 = filtered(0), v1 = filtered(1), v2 = filtered(2), v3 = filtered(3);
@@ -167,8 +177,8 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
     }
 }
 void fetch_nine_bit(Packet& packet, const FetchCtx& ctx) noexcept {
-    fetch<FetchNineBit>(packet, ctx);
+    fetch<FilterNineBit>(packet, ctx);
 }
 void fetch_wide(Packet& packet, const FetchCtx& ctx) noexcept {
-    fetch<FetchWide>(packet, ctx);
+    fetch<FilterWide>(packet, ctx);
 }

@@ -1,33 +1,78 @@
-/// Arithmetic of the final combiner, nine-bit model.
+/// round(p / 255), exactly, from p + 128 with p in 0 .. 65407. With p = 255 q + r, |r| <= 127, the
+/// numerator is 65536 q + 257 (r + 128) - q, and what follows 65536 q lies within 1 .. 65535.
+I16 quotient_255(I16 p128) {
+    return mul_high_unsigned(p128, I16(257));
+}
+
+/// Arithmetic of the final combiner, nine-bit model: all numbers are 0 .. 255, products 0 .. 65025.
+template <Rounding R, bool RoundEach>
 struct FinalNineBit {
     static constexpr std::int16_t kOne = 255;
-    static I16 identity(I16 e) { return max(e, I16(0)); }
-    static I16 color_sum(I16 a, I16 b) { return identity(a) + identity(b); }
-    static I16 product(I16 a, I16 b) { return product_255(a, b); }
+    /// What quotient() wants added to a product beforehand.
+    static constexpr std::int16_t kExtra = R == Rounding::nearest    ? 128
+                                           : R == Rounding::truncate ? 1
+                                                                     : 0;
+    static I16 quotient(I16 p) {
+        if constexpr (R == Rounding::shift8) return shift_right_logical(p, 8);
+        return quotient_255(p);
+    }
 
-    /// round((a b + (255 - a) c) / 255) + d = c + round(a (b - c) / 255) + d, since c is an
-    /// integer.
-    static I16 lerp(I16 a, I16 b, I16 c, I16 d) { return c + product_255(a, b - c) + d; }
+    /// Clamps to 0, then x or 1 - x.
+    struct Map {
+        Map(bool inverted, bool /*is_sum*/) : turn(inverted ? kOne : 0) {}
+        I16 operator()(I16 e) const { return max(e, I16(0)) ^ turn; }
+        I16 turn;
+    };
+    static I16 color_sum(I16 a, I16 b) { return a + b; }
+    static I16 product(I16 a, I16 b) { return quotient(a * b + I16(kExtra)); }
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
+        const I16 rest = a ^ I16(kOne);
+        if constexpr (RoundEach) return product(a, b) + product(rest, c) + d;
+        return quotient(a * b + (rest * c + I16(kExtra))) + d;
+    }
+};
 
-    /// The same where the colour sum makes |b - c| as large as 510: in 32 bits, with a division
-    /// that is exact to 2^-24, and no quotient comes nearer than 1/255 to an integer unless it is
-    /// one.
-    static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) {
-        constexpr int kLift = 512;  // keeps what is truncated positive
-        const I16 difference = b - c;
-        const I16 low = a * difference, high = mul_high(a, difference);
-        const auto quotient = [](I16 pair) {
-            const I32 p = ::xsimd::bitwise_cast<I32>(pair) + I32(127 + 255 * kLift);
-            return truncate(divide(to_float(p), F32(255.0F))) - I32(kLift);
-        };
-        return c + narrow(quotient(zip_lo16(low, high)), quotient(zip_hi16(low, high))) + d;
+/// The same with the colour sum, up to 510, as B, C or D.
+template <Rounding R, bool RoundEach>
+struct FinalNineBitSum : FinalNineBit<R, RoundEach> {
+    using Base = FinalNineBit<R, RoundEach>;
+    static constexpr std::int16_t kOne = Base::kOne, kExtra = Base::kExtra;
+    struct Map {
+        Map(bool inverted, bool /*is_sum*/)
+            : turn(inverted ? -1 : 0), drop(inverted ? std::int16_t{~kOne} : std::int16_t{0}) {}
+        /// Inverted, 65535 - e minus 65280, saturated at 0.
+        I16 operator()(I16 e) const {
+            return subtract_saturating_unsigned(max(e, I16(0)) ^ turn, drop);
+        }
+        I16 turn, drop;
+    };
+    /// Up to 1 and beyond 1 apart, so that products fit; a result above 255 may saturate.
+    static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
+        const I16 one(kOne), extra(kExtra), rest = a ^ one;
+        const I16 low_b = min(b, one), low_c = min(c, one);
+        const I16 ab = a * low_b + extra, beyond_ab = a * (b - low_b);
+        const I16 cd = rest * low_c, beyond_cd = rest * (c - low_c);
+        if constexpr (RoundEach) {
+            return Base::quotient(add_saturating_unsigned(ab, beyond_ab)) +
+                   Base::quotient(add_saturating_unsigned(cd + extra, beyond_cd)) + d;
+        }
+        return Base::quotient(add_saturating_unsigned(ab + cd, beyond_ab + beyond_cd)) + d;
     }
 };
 
 struct FinalWide {
     static constexpr std::int16_t kOne = 16384;
-    static I16 identity(I16 e) { return min(max(e, I16(0)), I16(kOne)); }
-    static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(identity(a), identity(b)); }
+
+    /// Clamps to 0 and, but for the colour sum as it is, to 1; then x or 1 - x.
+    struct Map {
+        Map(bool inverted, bool is_sum)
+            : turn(inverted ? -1 : 0),
+              offset(inverted ? kOne + 1 : 0),  // ~x + 1 + one = one - x
+              high(is_sum && !inverted ? std::int16_t{32767} : kOne) {}
+        I16 operator()(I16 e) const { return (min(max(e, I16(0)), high) ^ turn) + offset; }
+        I16 turn, offset, high;
+    };
+    static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(a, b); }
     static I16 product(I16 a, I16 b) {
         const Wide::Value v = Wide::product(a, b);
         return narrow(v.lo, v.hi);
@@ -39,94 +84,87 @@ struct FinalWide {
         const I32 hi = mul_add_pairs(zip_hi16(a, rest), zip_hi16(b, c)) + half;
         return ::xsimd::sadd(narrow(lo >> 14, hi >> 14), d);
     }
-    static I16 lerp_with_sum(I16 a, I16 b, I16 c, I16 d) { return lerp(a, b, c, d); }
 };
 
-/// The pseudo registers of one packet; a plane each for r, g, b.
+/// One component of the pseudo registers.
 struct PseudoRegisters {
-    alignas(64) std::int16_t sum[3][kPacketSize], product[3][kPacketSize];
+    alignas(64) std::int16_t sum[kPacketSize], product[kPacketSize];
 };
 
-/// An input with its mapping: clamp to 0 and, for an inverted input, to 1; then x or 1 - x.
+/// One component of an input, with its mapping.
 template <class Model>
 struct FinalSource {
-    FinalSource(const Packet& packet, const Operand& operand, const PseudoRegisters& pseudo)
-        : is_sum(operand.plane[0] == FinalCtx::kColorSum), turn(0), offset(0), high(Model::kOne) {
-        const bool is_product = operand.plane[0] == FinalCtx::kFinalProduct;
-        for (int c = 0; c < 3; ++c) {
-            plane[c] = is_sum       ? pseudo.sum[c]
-                       : is_product ? pseudo.product[c]
-                                    : packet.planes + operand.plane[c] * kPacketSize;
-        }
-        if (operand.mapping == 1) {
-            turn = I16(-1);
-            offset = I16(Model::kOne + 1);  // ~x + 1 + one = one - x
-        } else if (is_sum) {
-            high = I16(32767);  // may exceed 1
-        }
+    FinalSource(const Packet& packet, const Operand& operand, int component,
+                const PseudoRegisters& pseudo)
+        : map(operand.mapping == 1, operand.plane[0] == FinalCtx::kColorSum) {
+        plane = operand.plane[0] == FinalCtx::kColorSum ? pseudo.sum
+                : operand.plane[0] == FinalCtx::kFinalProduct
+                    ? pseudo.product
+                    : packet.planes + operand.plane[component] * kPacketSize;
     }
-    I16 operator()(int component, int i) const {
-        return (min(max(load(plane[component] + i), I16(0)), high) ^ turn) + offset;
-    }
-    const std::int16_t* plane[3];
-    bool is_sum;
-    I16 turn, offset, high;
+    I16 operator()(int i) const { return map(load(plane + i)); }
+    const std::int16_t* plane;
+    typename Model::Map map;
 };
-
-template <class Model, bool UsesSum>
-void blend(Packet& packet, const FinalCtx& ctx, const PseudoRegisters& pseudo) {
-    using Source = FinalSource<Model>;
-    const Source a(packet, ctx.a, pseudo), b(packet, ctx.b, pseudo), c(packet, ctx.c, pseudo),
-        d(packet, ctx.d, pseudo);
-    const I16 one(Model::kOne);
-    const int n = group_count(packet);
-    for (int k = 0; k < 3; ++k) {
-        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
-        for (int i = 0; i < n; i += kLanes) {
-            const I16 va = a(k, i), vb = b(k, i), vc = c(k, i), vd = d(k, i);
-            if constexpr (UsesSum) {
-                store(out + i, min(Model::lerp_with_sum(va, vb, vc, vd), one));
-            } else {
-                store(out + i, min(Model::lerp(va, vb, vc, vd), one));
-            }
-        }
-    }
-}
 
 template <class Model>
 void final_combiner(Packet& packet, const FinalCtx& ctx) {
-    PseudoRegisters pseudo{};
+    using Source = FinalSource<Model>;
+    PseudoRegisters pseudo;
+    const I16 one(Model::kOne);
     const int n = group_count(packet);
-    if (ctx.uses_color_sum != 0) {
-        const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
-        for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k) {
+        if (ctx.uses_color_sum != 0) {
+            const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
             const std::int16_t* const spare0 = packet.planes + ctx.spare0[k] * kPacketSize;
             const std::int16_t* const secondary = packet.planes + ctx.secondary[k] * kPacketSize;
+            const typename Model::Map map0(ctx.complement_spare0 != 0, false),
+                map1(ctx.complement_secondary != 0, false);
             for (int i = 0; i < n; i += kLanes) {
-                store(pseudo.sum[k] + i,
-                      min(Model::color_sum(load(spare0 + i), load(secondary + i)), limit));
+                store(pseudo.sum + i,
+                      min(Model::color_sum(map0(load(spare0 + i)), map1(load(secondary + i))),
+                          limit));
             }
         }
-    }
-    if (ctx.uses_final_product != 0) {
-        const FinalSource<Model> e(packet, ctx.e, pseudo), f(packet, ctx.f, pseudo);
-        for (int k = 0; k < 3; ++k) {
+        if (ctx.uses_final_product != 0) {
+            const Source e(packet, ctx.e, k, pseudo), f(packet, ctx.f, k, pseudo);
             for (int i = 0; i < n; i += kLanes) {
-                store(pseudo.product[k] + i, Model::product(e(k, i), f(k, i)));
+                store(pseudo.product + i, Model::product(e(i), f(i)));
             }
         }
+        const Source a(packet, ctx.a, k, pseudo), b(packet, ctx.b, k, pseudo),
+            c(packet, ctx.c, k, pseudo), d(packet, ctx.d, k, pseudo);
+        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
+        for (int i = 0; i < n; i += kLanes) {
+            store(out + i, min(Model::lerp(a(i), b(i), c(i), d(i)), one));
+        }
     }
-    if (ctx.uses_color_sum != 0) {
-        blend<Model, true>(packet, ctx, pseudo);
-    } else {
-        blend<Model, false>(packet, ctx, pseudo);
-    }
-    const FinalSource<Model> g(packet, ctx.g, pseudo);
+    const Source g(packet, ctx.g, 0, pseudo);
     std::int16_t* const alpha = packet.planes + ctx.out[3] * kPacketSize;
-    for (int i = 0; i < n; i += kLanes) store(alpha + i, g(0, i));
+    for (int i = 0; i < n; i += kLanes) store(alpha + i, g(i));
+}
+template <Rounding R, bool RoundEach>
+void final_nine_bit(Packet& packet, const FinalCtx& ctx) {
+    if (ctx.uses_color_sum != 0) {
+        final_combiner<FinalNineBitSum<R, RoundEach>>(packet, ctx);
+    } else {
+        final_combiner<FinalNineBit<R, RoundEach>>(packet, ctx);
+    }
+}
+template <Rounding R>
+void final_nine_bit(Packet& packet, const FinalCtx& ctx) {
+    if (ctx.round_each != 0) return final_nine_bit<R, true>(packet, ctx);
+    final_nine_bit<R, false>(packet, ctx);
 }
 void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
-    final_combiner<FinalNineBit>(packet, ctx);
+    switch (ctx.rounding) {
+        case Rounding::nearest:
+            return final_nine_bit<Rounding::nearest>(packet, ctx);
+        case Rounding::truncate:
+            return final_nine_bit<Rounding::truncate>(packet, ctx);
+        case Rounding::shift8:
+            return final_nine_bit<Rounding::shift8>(packet, ctx);
+    }
 }
 void final_wide(Packet& packet, const FinalCtx& ctx) noexcept {
     final_combiner<FinalWide>(packet, ctx);
@@ -145,6 +183,14 @@ struct StoreWide {
     }
     static float to_float(std::int16_t v) { return static_cast<float>(v) / 16384.0F; }
 };
+
+/// Eight pixels in a row, as most are. Four indices at a time, which are too small to carry.
+bool are_consecutive(const std::uint16_t* pixels) {
+    std::uint64_t four[2];
+    __builtin_memcpy(four, pixels, sizeof four);
+    const std::uint64_t first = pixels[0] * 0x0001000100010001U + 0x0003000200010000U;
+    return four[0] == first && four[1] == first + 0x0004000400040004U;
+}
 
 template <class Model>
 void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
@@ -168,6 +214,12 @@ void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
         int part = 0;
         for (; part + 8 <= used; part += 8) {
             const std::int16_t *low = half[0] + part, *high = half[1] + part;
+            if (are_consecutive(pixels + i + part)) {
+                std::uint32_t* const to = tile + pixels[i + part];
+                __builtin_memcpy(to, low, 16);
+                __builtin_memcpy(to + 4, high, 16);
+                continue;
+            }
             put(low, part);
             put(low + 2, part + 1);
             put(low + 4, part + 2);

@@ -71,7 +71,7 @@ struct AddressCtx {
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
 /// 4 bytes apart, the rows one pitch. Texture k gives four planes r, g, b, a from plane[k] on.
-/// A texel is four signed bytes, value - 128; t below is the value 0 .. 255.
+/// A texel t is four bytes r, g, b, a.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
 ///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
 /// wide: h = (256 - wx) * t_left + wx * t_right,
@@ -79,15 +79,18 @@ struct AddressCtx {
 ///   code = (x + 2) >> 2.
 struct FetchCtx {
     static constexpr int kMaxTextures = 4;
-    const std::int8_t* texels[kMaxTextures];
+    const std::uint8_t* texels[kMaxTextures];
     int plane[kMaxTextures];
     int count;           ///< 1 .. kMaxTextures
     std::int32_t pitch;  ///< bytes
 };
 
 /// An input of a combiner portion: the register planes of its components and the mapping, by the
-/// numbers 0 .. 7 of the hardware (burnish::Mapping in the same order).
+/// numbers 0 .. 7 of the hardware (burnish::Mapping in the same order). kIdealHalf + 2 .. 5 are
+/// expand .. half_bias_negate with 1/2 = 127.5, nine-bit portions only.
 struct Operand {
+    static constexpr std::uint8_t kIdealHalf = 8;
+
     std::int16_t plane[3];
     std::uint8_t mapping;
 };
@@ -95,6 +98,8 @@ struct Operand {
 enum class ProductKind : std::uint8_t { none, multiply, dot };
 enum class ThirdKind : std::uint8_t { none, sum, mux };
 enum class OutputScale : std::uint8_t { one, two, four, half };
+/// x / 255 to nearest, towards zero, or floor(x / 256). The wide model knows `nearest` only.
+enum class Rounding : std::uint8_t { nearest, truncate, shift8 };
 
 /// One portion of a general combiner stage (docs/numbers.md has the arithmetic of both models).
 /// For component c in 0 .. components - 1: AB = A[c] * B[c] or the dot product over components
@@ -106,11 +111,15 @@ struct PortionCtx {
     ProductKind ab, cd;  ///< ab is never `none`; cd is none only where third is, too
     ThirdKind third;
     OutputScale scale;
+    Rounding rounding;        ///< of products
+    std::uint8_t halve_down;  ///< nine-bit, scale half: floor instead of half up
+    std::uint8_t mux_lsb;     ///< nine-bit: mux tests bit 0 of its plane, not whether it is >= 1/2
     std::uint8_t bias_minus_half;
     std::uint8_t wide;        ///< wide model: saturate at the register's range, not at [-1, 1]
     std::uint8_t components;  ///< 1 or 3 planes to write per output
     std::int16_t mux_plane;   ///< spare0.alpha, for mux
-    std::int16_t ab_out[3], cd_out[3], third_out[3];  ///< planes; unused outputs name a trash plane
+    /// Planes; unused outputs name one and the same trash plane.
+    std::int16_t ab_out[3], cd_out[3], third_out[3];
 };
 
 /// The final combiner: planes out[0 .. 2] = min(1, A*B + (1 - A)*C + D), out[3] = G.
@@ -123,6 +132,9 @@ struct FinalCtx {
     Operand g;               ///< plane[0]
     std::int16_t spare0[3];  ///< planes that the colour sum adds
     std::int16_t secondary[3];
+    Rounding rounding;        ///< of E F and of A B + (1 - A) C
+    std::uint8_t round_each;  ///< nine-bit: A B and (1 - A) C are rounded apart
+    std::uint8_t complement_spare0, complement_secondary;  ///< 1 - x in the colour sum
     std::uint8_t clamp_color_sum;
     std::uint8_t uses_color_sum;
     std::uint8_t uses_final_product;

@@ -234,8 +234,8 @@ constexpr BitPositions make_bit_positions() {
 constexpr BitPositions kBitPositions = make_bit_positions();
 
 /// Appends first_pixel plus the positions of the set bits, row by row; writes up to 8 values past
-/// the last. Four rows at a time, whatever is in them: to branch on each costs more. The sums do not
-/// carry from one 16-bit part of a word to the next.
+/// the last. Four rows at a time, whatever is in them: to branch on each costs more. The sums do
+/// not carry from one 16-bit part of a word to the next.
 inline std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel,
                                     std::uint16_t* out) {
     constexpr std::uint64_t kOnes = 0x0001000100010001U;

@@ -259,6 +259,12 @@ void address(Packet& packet, const AddressCtx& ctx) noexcept {
 
 // ---- the two number models
 
+/// x / 2 with ties to the even neighbour.
+Int halve_to_even(Int x) {
+    const Int low = x >> 1;
+    return (x & 1) != 0 && (low & 1) != 0 ? low + 1 : low;
+}
+
 Int mapped(std::uint8_t mapping, Int e, Int one, Int half) {
     const Int positive = std::max<Int>(0, e);
     switch (mapping) {
@@ -276,8 +282,16 @@ Int mapped(std::uint8_t mapping, Int e, Int one, Int half) {
             return half - positive;
         case 6:
             return e;
-        default:
+        case 7:
             return -e;
+        case Operand::kIdealHalf + 2:
+            return 2 * positive - one;
+        case Operand::kIdealHalf + 3:
+            return one - 2 * positive;
+        case Operand::kIdealHalf + 4:
+            return halve_to_even(2 * positive - one);
+        default:
+            return halve_to_even(one - 2 * positive);
     }
 }
 
@@ -286,13 +300,20 @@ struct NineBit {
     static constexpr Int kHalf = 128;
 
     static Int map(std::uint8_t mapping, Int e) { return mapped(mapping, e, kOne, kHalf); }
-    static Int product(Int a, Int b) { return divide_to_nearest(a * b, kOne); }
+    static Int quotient(Int x, Rounding rounding) {
+        switch (rounding) {
+            case Rounding::nearest:
+                return divide_to_nearest(x, kOne);
+            case Rounding::truncate:
+                return x / kOne;
+            case Rounding::shift8:
+                return x >> 8;
+        }
+        return 0;
+    }
     static Int clamp_output(Int x, bool /*wide*/) { return clamp(x, -kOne, kOne); }
     static Int final_identity(Int e) { return std::max<Int>(0, e); }
-    static Int color_sum(Int a, Int b) { return std::max<Int>(0, a) + std::max<Int>(0, b); }
-    static Int blend(Int a, Int b, Int c) {
-        return divide_to_nearest(a * b + (kOne - a) * c, kOne);
-    }
+    static Int color_sum(Int a, Int b) { return a + b; }
 
     static Int filter(Int top_left, Int top_right, Int bottom_left, Int bottom_right, Int wx,
                       Int wy) {
@@ -313,15 +334,12 @@ struct Wide {
     static Int map(std::uint8_t mapping, Int e) {
         return clamp(mapped(mapping, e, kOne, kHalf), kLow, kHigh);
     }
-    static Int product(Int a, Int b) { return shift_half_up(a * b, 14); }
+    static Int quotient(Int x, Rounding /*nearest*/) { return shift_half_up(x, 14); }
     static Int clamp_output(Int x, bool wide) {
         return wide ? clamp(x, kLow, kHigh) : clamp(x, -kOne, kOne);
     }
     static Int final_identity(Int e) { return clamp(e, 0, kOne); }
-    static Int color_sum(Int a, Int b) {
-        return std::min(clamp(a, 0, kOne) + clamp(b, 0, kOne), kHigh);
-    }
-    static Int blend(Int a, Int b, Int c) { return shift_half_up(a * b + (kOne - a) * c, 14); }
+    static Int color_sum(Int a, Int b) { return std::min(a + b, kHigh); }
 
     static Int filter(Int top_left, Int top_right, Int bottom_left, Int bottom_right, Int wx,
                       Int wy) {
@@ -349,7 +367,7 @@ void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
         for (int k = 0; k < 4 * ctx.count; ++k) {
             const int c = k % 4;
             const auto texel = [&](std::int32_t offset) {
-                return Int{ctx.texels[k / 4][offset + c]} + 128;
+                return Int{ctx.texels[k / 4][offset + c]};
             };
             const std::int32_t upper = packet.texel[i], lower = upper + ctx.pitch;
             const Int value =
@@ -369,9 +387,10 @@ Int input(const Packet& packet, const Operand& operand, int component, int i) {
 
 template <class Model>
 Int product(const Packet& packet, ProductKind kind, const Operand& x, const Operand& y,
-            int component, int i) {
+            Rounding rounding, int component, int i) {
     const auto term = [&](int c) {
-        return Model::product(input<Model>(packet, x, c, i), input<Model>(packet, y, c, i));
+        return Model::quotient(input<Model>(packet, x, c, i) * input<Model>(packet, y, c, i),
+                               rounding);
     };
     switch (kind) {
         case ProductKind::multiply:
@@ -397,7 +416,7 @@ std::int16_t output(const PortionCtx& ctx, Int x) {
             x *= 4;
             break;
         case OutputScale::half:
-            x = shift_half_up(x, 1);
+            x = ctx.halve_down != 0 ? x >> 1 : shift_half_up(x, 1);
             break;
     }
     return static_cast<std::int16_t>(Model::clamp_output(x, ctx.wide != 0));
@@ -406,12 +425,12 @@ std::int16_t output(const PortionCtx& ctx, Int x) {
 template <class Model>
 void portion(Packet& packet, const PortionCtx& ctx) noexcept {
     for (int i = 0; i < packet.count; ++i) {
-        const bool takes_cd =
-            ctx.third == ThirdKind::mux && plane(packet, ctx.mux_plane)[i] >= Model::kHalf;
+        const std::int16_t selector = plane(packet, ctx.mux_plane)[i];
+        const bool takes_cd = ctx.mux_lsb != 0 ? (selector & 1) != 0 : selector >= Model::kHalf;
         Int ab[3], cd[3];
         for (int c = 0; c < ctx.components; ++c) {
-            ab[c] = product<Model>(packet, ctx.ab, ctx.a, ctx.b, c, i);
-            cd[c] = product<Model>(packet, ctx.cd, ctx.c, ctx.d, c, i);
+            ab[c] = product<Model>(packet, ctx.ab, ctx.a, ctx.b, ctx.rounding, c, i);
+            cd[c] = product<Model>(packet, ctx.cd, ctx.c, ctx.d, ctx.rounding, c, i);
         }
         for (int c = 0; c < ctx.components; ++c) {
             plane(packet, ctx.ab_out[c])[i] = output<Model>(ctx, ab[c]);
@@ -442,15 +461,19 @@ Int final_register(const Packet& packet, const Operand& operand, int c, int i) {
 template <class Model>
 Int final_input(const Packet& packet, const FinalCtx& ctx, const Operand& operand, int c, int i) {
     if (operand.plane[0] == FinalCtx::kColorSum) {
-        const Int sum =
-            Model::color_sum(plane(packet, ctx.spare0[c])[i], plane(packet, ctx.secondary[c])[i]);
+        const auto term = [&](const std::int16_t* planes, std::uint8_t complement) {
+            const Int x = Model::final_identity(plane(packet, planes[c])[i]);
+            return complement != 0 ? Model::kOne - x : x;
+        };
+        const Int sum = Model::color_sum(term(ctx.spare0, ctx.complement_spare0),
+                                         term(ctx.secondary, ctx.complement_secondary));
         return final_mapping<Model>(operand.mapping,
                                     ctx.clamp_color_sum != 0 ? std::min(sum, Model::kOne) : sum);
     }
     if (operand.plane[0] == FinalCtx::kFinalProduct) {
         const Int e = final_register<Model>(packet, ctx.e, c, i);
         const Int f = final_register<Model>(packet, ctx.f, c, i);
-        return final_mapping<Model>(operand.mapping, Model::product(e, f));
+        return final_mapping<Model>(operand.mapping, Model::quotient(e * f, ctx.rounding));
     }
     return final_register<Model>(packet, operand, c, i);
 }
@@ -462,7 +485,12 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) noexcept {
             const auto read = [&](const Operand& o) {
                 return final_input<Model>(packet, ctx, o, c, i);
             };
-            const Int sum = Model::blend(read(ctx.a), read(ctx.b), read(ctx.c)) + read(ctx.d);
+            const Int ab = read(ctx.a) * read(ctx.b);
+            const Int rest = (Model::kOne - read(ctx.a)) * read(ctx.c);
+            const Int blend = ctx.round_each != 0 ? Model::quotient(ab, ctx.rounding) +
+                                                        Model::quotient(rest, ctx.rounding)
+                                                  : Model::quotient(ab + rest, ctx.rounding);
+            const Int sum = blend + read(ctx.d);
             plane(packet, ctx.out[c])[i] = static_cast<std::int16_t>(std::min(sum, Model::kOne));
         }
         const Int alpha = final_register<Model>(packet, ctx.g, 0, i);

@@ -115,11 +115,18 @@ inline I16 mul_round(I16 a, I16 b) {
 inline I16 mul_high(I16 a, I16 b) {
     return _mm512_mulhi_epi16(a, b);
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    return _mm512_mulhi_epu16(a, b);
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return _mm512_madd_epi16(a, b);
 }
 inline I16 mul_add_bytes(I16 u8, I16 s8) {
     return _mm512_maddubs_epi16(u8, s8);
+}
+/// (a + b + 1) >> 1 of unsigned numbers.
+inline I16 average(I16 a, I16 b) {
+    return _mm512_avg_epu16(a, b);
 }
 inline I16 zip_lo16(I16 a, I16 b) {
     return _mm512_unpacklo_epi16(a, b);
@@ -154,7 +161,7 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
 }
 /// 64-bit loads of texel pairs: lane k gets the pairs at offset[8 k] (low half) and offset[8 k +
 /// 1].
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
         const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
@@ -191,11 +198,17 @@ inline I16 mul_round(I16 a, I16 b) {
 inline I16 mul_high(I16 a, I16 b) {
     return _mm256_mulhi_epi16(a, b);
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    return _mm256_mulhi_epu16(a, b);
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return _mm256_madd_epi16(a, b);
 }
 inline I16 mul_add_bytes(I16 u8, I16 s8) {
     return _mm256_maddubs_epi16(u8, s8);
+}
+inline I16 average(I16 a, I16 b) {
+    return _mm256_avg_epu16(a, b);
 }
 inline I16 zip_lo16(I16 a, I16 b) {
     return _mm256_unpacklo_epi16(a, b);
@@ -228,7 +241,7 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
     const __m256i pairs = _mm256_permute4x64_epi64(_mm256_packs_epi32(v, v), 0x08);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(pairs));
 }
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
         const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
@@ -263,11 +276,17 @@ inline I16 mul_round(I16 a, I16 b) {
 inline I16 mul_high(I16 a, I16 b) {
     return _mm_mulhi_epi16(a, b);
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    return _mm_mulhi_epu16(a, b);
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return _mm_madd_epi16(a, b);
 }
 inline I16 mul_add_bytes(I16 u8, I16 s8) {
     return _mm_maddubs_epi16(u8, s8);
+}
+inline I16 average(I16 a, I16 b) {
+    return _mm_avg_epu16(a, b);
 }
 inline I16 zip_lo16(I16 a, I16 b) {
     return _mm_unpacklo_epi16(a, b);
@@ -299,7 +318,7 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(v, v));
 }
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
         const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
@@ -337,6 +356,12 @@ inline I16 mul_high(I16 a, I16 b) {
     const int32x4_t hi = vmull_high_s16(a, b);
     return vuzp2q_s16(vreinterpretq_s16_s32(lo), vreinterpretq_s16_s32(hi));
 }
+inline I16 mul_high_unsigned(I16 a, I16 b) {
+    const uint16x8_t u = vreinterpretq_u16_s16(a), v = vreinterpretq_u16_s16(b);
+    const uint32x4_t lo = vmull_u16(vget_low_u16(u), vget_low_u16(v));
+    const uint32x4_t hi = vmull_high_u16(u, v);
+    return vreinterpretq_s16_u16(vuzp2q_u16(vreinterpretq_u16_u32(lo), vreinterpretq_u16_u32(hi)));
+}
 inline I32 mul_add_pairs(I16 a, I16 b) {
     return vpaddq_s32(vmull_s16(vget_low_s16(a), vget_low_s16(b)), vmull_high_s16(a, b));
 }
@@ -348,6 +373,9 @@ inline I16 mul_add_bytes(I16 u8, I16 s8) {
         vmulq_s16(vreinterpretq_s16_u16(vmovl_u8(vget_low_u8(u))), vmovl_s8(vget_low_s8(s)));
     const int16x8_t hi = vmulq_s16(vreinterpretq_s16_u16(vmovl_high_u8(u)), vmovl_high_s8(s));
     return vqaddq_s16(vuzp1q_s16(lo, hi), vuzp2q_s16(lo, hi));
+}
+inline I16 average(I16 a, I16 b) {
+    return vreinterpretq_s16_u16(vrhaddq_u16(vreinterpretq_u16_s16(a), vreinterpretq_u16_s16(b)));
 }
 inline I16 zip_lo16(I16 a, I16 b) {
     return vzip1q_s16(a, b);
@@ -379,8 +407,8 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     vst1_s16(p, vmovn_s32(v));
 }
-inline I16 load_pairs(const std::int8_t* base, const std::int32_t* offset) {
-    return vreinterpretq_s16_s8(vcombine_s8(vld1_s8(base + offset[0]), vld1_s8(base + offset[1])));
+inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
+    return vreinterpretq_s16_u8(vcombine_u8(vld1_u8(base + offset[0]), vld1_u8(base + offset[1])));
 }
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));
@@ -404,6 +432,13 @@ inline I16 as_signed(U16 v) {
 }
 inline U16 as_unsigned(I16 v) {
     return ::xsimd::bitwise_cast<U16>(v);
+}
+/// As unsigned numbers, saturating at 65535 and 0.
+inline I16 add_saturating_unsigned(I16 a, I16 b) {
+    return as_signed(::xsimd::sadd(as_unsigned(a), as_unsigned(b)));
+}
+inline I16 subtract_saturating_unsigned(I16 a, I16 b) {
+    return as_signed(::xsimd::ssub(as_unsigned(a), as_unsigned(b)));
 }
 /// Zeros come in from the left.
 inline I16 shift_right_logical(I16 v, int n) {

@@ -112,6 +112,29 @@ TEST_P(KernelTest, NineBitDotOfEveryPairOfOperands) {
     check_every_nine_bit_product(table(), ProductKind::dot);
 }
 
+// Squares have a short product of their own: every register under every mapping.
+TEST_P(KernelTest, NineBitSquareOfEveryOperand) {
+    PacketMemory packet;
+    for (int mapping = 0; mapping < kMappings; ++mapping) {
+        for (const ProductKind kind : {ProductKind::multiply, ProductKind::dot}) {
+            PortionCtx ctx = portion(kind, ThirdKind::none, kScales[1], 1);
+            ctx.a.mapping = static_cast<std::uint8_t>(mapping);
+            ctx.b = ctx.a;
+            ctx.cd = ProductKind::none;
+            const Written written = outputs_of(ctx);
+            for (const int first : {-256, 0}) {
+                for (int k = 0; k < 3; ++k)
+                    for (int i = 0; i < kPacketSize; ++i)
+                        packet.plane(k)[i] = static_cast<std::int16_t>(first + i);
+                ASSERT_EQ(
+                    stage_difference(table(), &KernelTable::portion_nine_bit, packet, ctx, written),
+                    "")
+                    << name("portion_nine_bit") << ", mapping " << mapping << ", from " << first;
+            }
+        }
+    }
+}
+
 /// Sets one fragment so that the sum of six products with one is `sum`, as far as registers reach.
 void set_sum(PacketMemory& packet, int i, int sum, int low, int high, int one) {
     for (int k = 0; k < 6; ++k) {

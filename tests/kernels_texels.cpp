@@ -138,7 +138,7 @@ const Written kFetched{.planes = {kTexelPlane, kTexelPlane + 1, kTexelPlane + 2,
 
 /// A texture of two rows with exactly the bytes that an address may reach.
 struct TwoRows {
-    std::vector<std::int8_t> bytes;
+    std::vector<std::uint8_t> bytes;
     std::int32_t pitch;
 
     explicit TwoRows(int width) : pitch(4 * (width + 1)) {
@@ -146,7 +146,7 @@ struct TwoRows {
     }
     void set(int x, int y, int channel, int value) {
         bytes[static_cast<std::size_t>(y * pitch + 4 * x + channel)] =
-            static_cast<std::int8_t>(value - 128);
+            static_cast<std::uint8_t>(value);
     }
 };
 
@@ -227,11 +227,11 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
         const int width = random.between(1, 40);
         const int height = random.between(1, 40);
         const std::int32_t pitch = 4 * (width + 1 + random.below(9));
-        std::vector<std::int8_t> texels(
+        std::vector<std::uint8_t> texels(
             static_cast<std::size_t>(pitch * (height + 1) + 4 * FetchCtx::kMaxTextures));
-        for (std::int8_t& t : texels)
-            t = static_cast<std::int8_t>(random.chance(4) ? (random.chance(2) ? -128 : 127)
-                                                          : random.between(-128, 127));
+        for (std::uint8_t& t : texels)
+            t = static_cast<std::uint8_t>(random.chance(4) ? (random.chance(2) ? 0 : 255)
+                                                           : random.below(256));
         PacketMemory packet;
         packet.count = random.chance(3) ? kPacketSize : random.between(1, kPacketSize);
         for (std::size_t i = 0; i < kPacketSize; ++i) {

@@ -260,8 +260,8 @@ TEST_P(ReferencePixels, AddressesInARowOfFourTexels) {
 
 TEST_P(ReferencePixels, FilterRoundsAcrossThenDown) {
     // Channels: corners (0, 1; 0, 0), (0, 255; 0, 255), white, and 128 everywhere; all weights 1/2.
-    const std::array<std::int8_t, 16> texels{-128, -128, 127, 0, -127, 127, 127, 0,
-                                             -128, -128, 127, 0, -128, 127, 127, 0};
+    const std::array<std::uint8_t, 16> texels{0, 0, 255, 128, 1, 255, 255, 128,
+                                              0, 0, 255, 128, 0, 255, 255, 128};
     PacketMemory packet;
     std::fill(packet.texel.begin(), packet.texel.end(), 0);
     std::fill(packet.weight_x.begin(), packet.weight_x.end(), std::int16_t{128});

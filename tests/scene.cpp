@@ -269,9 +269,8 @@ vertices = []
     EXPECT_EQ(texture.sampler().filter, Filter::nearest);
     EXPECT_EQ(texture.sampler().wrap_s, Wrap::clamp_to_edge);
     EXPECT_EQ(texture.sampler().wrap_t, Wrap::repeat);
-    // Stored as value - 128.
-    EXPECT_EQ(texture.texels()[0], 1 - 128);
-    EXPECT_EQ(texture.texels()[4], 255 - 128);
+    EXPECT_EQ(texture.texels()[0], 1);
+    EXPECT_EQ(texture.texels()[4], 255);
 }
 
 TEST_F(SceneFiles, TextureErrors) {

@@ -19,19 +19,36 @@ glm::vec3 normalised(const glm::vec3& v) {
 
 /// Everything that a lit vertex may be asked for.
 struct LitVertex {
-    glm::vec3 half, light, view;  // in the tangent frame, x/2 + 1/2
-    float n_dot_l;
+    glm::vec3 half{}, light{}, view{};  // in the tangent frame, x/2 + 1/2
+    float n_dot_l = 0.0F;
 };
 
-LitVertex light_vertex(const VertexFrame& v, const LightSpace& space) {
-    const glm::vec3 l = normalised(space.light - v.position * space.light_w);
-    const glm::vec3 view = normalised(space.eye - v.position);
-    const glm::vec3 h = normalised(l + view);
+/// Which of its vectors a list of varyings names.
+struct WantedVectors {
+    explicit WantedVectors(std::span<const Varying> list)
+        : half(names(list, Varying::Source::half_tangent)),
+          light(names(list, Varying::Source::light_tangent)),
+          view(names(list, Varying::Source::view_tangent)) {}
+    static bool names(std::span<const Varying> list, Varying::Source source) {
+        return std::any_of(list.begin(), list.end(),
+                           [&](const Varying& v) { return v.source == source; });
+    }
+    bool half, light, view;
+};
+
+LitVertex light_vertex(const VertexFrame& v, const LightSpace& space, const WantedVectors& wanted) {
     const glm::vec3 t(v.tangent), b = bitangent(v);
     const auto coded = [&](const glm::vec3& x) {
         return glm::vec3(dot(t, x), dot(b, x), dot(v.normal, x)) * 0.5F + 0.5F;
     };
-    return {coded(h), coded(l), coded(view), std::max(dot(v.normal, l), 0.0F)};
+    const glm::vec3 l = normalised(space.light - v.position * space.light_w);
+    LitVertex lit{.n_dot_l = std::max(dot(v.normal, l), 0.0F)};
+    if (wanted.light) lit.light = coded(l);
+    if (!wanted.half && !wanted.view) return lit;
+    const glm::vec3 view = normalised(space.eye - v.position);
+    if (wanted.half) lit.half = coded(normalised(l + view));
+    if (wanted.view) lit.view = coded(view);
+    return lit;
 }
 
 float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit) {
@@ -79,10 +96,11 @@ void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varyin
     constexpr std::size_t kBatch = 1024;
     out.resize(vertices.size() * list.size());
     if (list.empty()) return;
+    const WantedVectors wanted(list);
     for_each_index(pool, (vertices.size() + kBatch - 1) / kBatch, 1, [&](std::size_t batch, int) {
         const std::size_t last = std::min(vertices.size(), (batch + 1) * kBatch);
         for (std::size_t i = batch * kBatch; i < last; ++i) {
-            const LitVertex v = light_vertex(vertices[i], space);
+            const LitVertex v = light_vertex(vertices[i], space, wanted);
             float* to = out.data() + i * list.size();
             for (const Varying& varying : list) *to++ = value_of(v, varying, lit);
         }

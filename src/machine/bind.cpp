@@ -46,6 +46,7 @@ class Binder {
   public:
     Binder(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units)
         : m_program(program),
+          m_machine(machine),
           m_numbers(machine.numbers),
           m_stage_count(static_cast<int>(program.stages.size())) {
         m_one = m_numbers == NumberModel::nine_bit ? 255 : 16384;
@@ -171,6 +172,8 @@ class Binder {
         set(op.source->ab_out, op.ab_out);
         set(op.source->cd_out, op.cd_out);
         set(op.source->third_out, op.third_out);
+        if (op.source->ab_blue_to_alpha) at(op.source->ab_out)[3] = op.ab_out[2];
+        if (op.source->cd_blue_to_alpha) at(op.source->cd_out)[3] = op.cd_out[2];
     }
 
     void add_stage(int s) {
@@ -359,6 +362,18 @@ class Binder {
         last = -1;  // once, however often it was read
     }
 
+    [[nodiscard]] Rounding rounding() const {
+        switch (m_machine.product_rounding) {
+            case ProductRounding::nearest:
+                break;
+            case ProductRounding::truncate:
+                return Rounding::truncate;
+            case ProductRounding::shift8:
+                return Rounding::shift8;
+        }
+        return Rounding::nearest;
+    }
+
     Operand operand(const OperandValues& o) const {
         Operand result{};
         for (std::size_t c = 0; c < 3; ++c) {
@@ -366,6 +381,11 @@ class Binder {
             result.plane[c] = static_cast<std::int16_t>(std::max(plane, 0));
         }
         result.mapping = static_cast<std::uint8_t>(o.mapping);
+        const bool has_half =
+            o.mapping >= Mapping::expand && o.mapping <= Mapping::half_bias_negate;
+        if (has_half && m_machine.expand == ExpandRule::ideal) {
+            result.mapping = static_cast<std::uint8_t>(result.mapping + Operand::kIdealHalf);
+        }
         return result;
     }
 
@@ -391,6 +411,9 @@ class Binder {
         ctx.cd = op.cd;
         ctx.third = op.third;
         ctx.scale = static_cast<OutputScale>(op.source->scale);
+        ctx.rounding = rounding();
+        ctx.halve_down = m_machine.halving == Halving::down ? 1 : 0;
+        ctx.mux_lsb = m_program.mux_bit == MuxBit::lsb ? 1 : 0;
         ctx.bias_minus_half = op.source->bias_minus_half ? 1 : 0;
         ctx.wide = op.source->wide ? 1 : 0;
         ctx.components = static_cast<std::uint8_t>(op.components);
@@ -419,6 +442,10 @@ class Binder {
         const Operand spare0 = operand(m_sum[0]), secondary = operand(m_sum[1]);
         std::copy(std::begin(spare0.plane), std::end(spare0.plane), ctx.spare0);
         std::copy(std::begin(secondary.plane), std::end(secondary.plane), ctx.secondary);
+        ctx.rounding = rounding();
+        ctx.round_each = m_machine.lerp_rounding == LerpRounding::each ? 1 : 0;
+        ctx.complement_spare0 = f.complement_spare0 ? 1 : 0;
+        ctx.complement_secondary = f.complement_secondary ? 1 : 0;
         ctx.clamp_color_sum = f.clamp_color_sum ? 1 : 0;
         ctx.uses_color_sum = m_uses_sum ? 1 : 0;
         ctx.uses_final_product = m_uses_product ? 1 : 0;
@@ -435,6 +462,7 @@ class Binder {
     }
 
     const CombinerProgram& m_program;
+    const Machine& m_machine;
     NumberModel m_numbers;
     int m_stage_count;
     int m_one = 0;

@@ -9,11 +9,13 @@ namespace burnish {
 
 namespace {
 
+/// floor(x / y) for y > 0.
+int floor_quotient(std::int64_t x, int y) {
+    return static_cast<int>(x % y < 0 ? x / y - 1 : x / y);
+}
 /// floor(x / y + 1/2) for y > 0.
 int round_quotient(std::int64_t x, int y) {
-    const std::int64_t twice = 2 * x + y;
-    const std::int64_t quotient = twice / (2 * y);
-    return static_cast<int>(twice % (2 * y) < 0 ? quotient - 1 : quotient);
+    return floor_quotient(2 * x + y, 2 * y);
 }
 
 /// Register codes of the two number models.
@@ -22,10 +24,40 @@ struct CodeNumbers {
     int one, half;
     int low, high;  ///< range of a register
     bool wide;
+    ProductRounding product_rounding = ProductRounding::nearest;
+    ExpandRule expand_rule = ExpandRule::hardware;
+    Halving halving = Halving::half_up;
+    LerpRounding lerp_rounding = LerpRounding::once;
 
     /// A product of two codes, or a sum of such products, as a code.
-    [[nodiscard]] int from_product(int x) const { return round_quotient(x, one); }
-    [[nodiscard]] static int halved(int x) { return round_quotient(x, 2); }
+    [[nodiscard]] int from_product(int x) const {
+        switch (product_rounding) {
+            case ProductRounding::nearest:
+                break;
+            case ProductRounding::truncate:
+                return x / one;
+            case ProductRounding::shift8:
+                return floor_quotient(x, 256);
+        }
+        return round_quotient(x, one);
+    }
+    [[nodiscard]] int halved(int x) const {
+        return halving == Halving::down ? floor_quotient(x, 2) : round_quotient(x, 2);
+    }
+    /// 2 (x - 1/2) and x - 1/2 for x >= 0.
+    [[nodiscard]] int expanded(int x) const {
+        return expand_rule == ExpandRule::ideal ? 2 * x - one : 2 * (x - half);
+    }
+    [[nodiscard]] int half_biased(int x) const {
+        const int below = x - half;
+        if (expand_rule == ExpandRule::hardware || below % 2 == 0) return below;
+        return below + 1;  // of the two neighbours of x - 127.5, the even one
+    }
+    [[nodiscard]] int blend(int ab, int rest) const {
+        if (lerp_rounding == LerpRounding::each) return from_product(ab) + from_product(rest);
+        return from_product(ab + rest);
+    }
+    [[nodiscard]] static bool is_odd(int x) { return x % 2 != 0; }
     [[nodiscard]] int constant(float x) const {
         return color_code(x, wide ? NumberModel::wide : NumberModel::nine_bit);
     }
@@ -40,6 +72,13 @@ struct RealNumbers {
 
     [[nodiscard]] static double from_product(double x) { return x; }
     [[nodiscard]] static double halved(double x) { return 0.5 * x; }
+    [[nodiscard]] static double expanded(double x) { return 2.0 * x - 1.0; }
+    [[nodiscard]] static double half_biased(double x) { return x - 0.5; }
+    [[nodiscard]] static double blend(double ab, double rest) { return ab + rest; }
+    /// The nearest nine-bit code is.
+    [[nodiscard]] static bool is_odd(double x) {
+        return std::fmod(std::floor(x * 255.0 + 0.5), 2.0) != 0.0;
+    }
     [[nodiscard]] static double constant(float x) {
         return x > 0.0F ? std::min(static_cast<double>(x), 1.0) : 0.0;
     }
@@ -66,16 +105,16 @@ Value map(Mapping mapping, Value e, const N& n) {
             x = n.one - std::min(positive, n.one);
             break;
         case Mapping::expand:
-            x = 2 * (positive - n.half);
+            x = n.expanded(positive);
             break;
         case Mapping::expand_negate:
-            x = 2 * (n.half - positive);
+            x = -n.expanded(positive);
             break;
         case Mapping::half_bias:
-            x = positive - n.half;
+            x = n.half_biased(positive);
             break;
         case Mapping::half_bias_negate:
-            x = n.half - positive;
+            x = -n.half_biased(positive);
             break;
         case Mapping::signed_identity:
             break;
@@ -139,12 +178,13 @@ Value output(const Portion& portion, Value x, const N& n) {
 
 /// Writes components first .. last of the three outputs to `after`.
 template <class N, class Value = typename N::Value>
-void run_portion(const Portion& portion, const Registers<Value>& before, Registers<Value>& after,
-                 std::size_t first, std::size_t last, const N& n) {
+void run_portion(const Portion& portion, MuxBit mux_bit, const Registers<Value>& before,
+                 Registers<Value>& after, std::size_t first, std::size_t last, const N& n) {
     const auto in = [&](const Input& input) { return read(before, input, n); };
     const Components<N> ab = product(portion.ab_product, in(portion.a), in(portion.b), n);
     const Components<N> cd = product(portion.cd_product, in(portion.c), in(portion.d), n);
-    const bool mux_takes_cd = before[Register::spare0][3] >= n.half;
+    const Value selector = before[Register::spare0][3];
+    const bool mux_takes_cd = mux_bit == MuxBit::msb ? selector >= n.half : n.is_odd(selector);
     for (std::size_t c = first; c <= last; ++c) {
         const Value sum = ab[c] + cd[c];
         const Value mux = mux_takes_cd ? cd[c] : ab[c];
@@ -155,6 +195,8 @@ void run_portion(const Portion& portion, const Registers<Value>& before, Registe
         write(portion.cd_out, cd[c]);
         write(portion.third_out, portion.third == Third::sum ? sum : mux);
     }
+    if (portion.ab_blue_to_alpha) after[portion.ab_out][3] = after[portion.ab_out][2];
+    if (portion.cd_blue_to_alpha) after[portion.cd_out][3] = after[portion.cd_out][2];
 }
 
 template <class N>
@@ -194,7 +236,8 @@ Components<N> color_sum(const FinalCombiner& final, const Registers<Value>& regi
     for (std::size_t c = 0; c < 3; ++c) {
         const Value spare0 = std::clamp(registers[Register::spare0][c], Value{0}, n.one);
         const Value secondary = std::clamp(registers[Register::col1][c], Value{0}, n.one);
-        sum[c] = spare0 + secondary;
+        sum[c] = (final.complement_spare0 ? n.one - spare0 : spare0) +
+                 (final.complement_secondary ? n.one - secondary : secondary);
         if (n.wide) sum[c] = std::min(sum[c], n.high);
         if (final.clamp_color_sum) sum[c] = std::min(sum[c], n.one);
     }
@@ -217,7 +260,7 @@ Components<N> run_final(const FinalCombiner& final, Registers<typename N::Value>
     const Components<N> d = read_final(registers, final.d, n);
     Components<N> result;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto blended = n.from_product(a[i] * b[i] + (n.one - a[i]) * c[i]);
+        const auto blended = n.blend(a[i] * b[i], (n.one - a[i]) * c[i]);
         result[i] = std::min(n.one, blended + d[i]);
     }
     result[3] = read_final(registers, final.g, n)[3];
@@ -239,8 +282,8 @@ Components<N> run_program(const CombinerProgram& program, const Registers<Value>
         registers[Register::const0] = constant(stage.const0, global0);
         registers[Register::const1] = constant(stage.const1, global1);
         const Registers<Value> before = registers;
-        run_portion(stage.rgb, before, registers, 0, 2, n);
-        run_portion(stage.alpha, before, registers, 3, 3, n);
+        run_portion(stage.rgb, program.mux_bit, before, registers, 0, 2, n);
+        run_portion(stage.alpha, program.mux_bit, before, registers, 3, 3, n);
         if (trace != nullptr) trace->push_back(registers);
     }
 
@@ -266,8 +309,12 @@ int color_code(float x, NumberModel numbers) {
 
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace) {
-    const bool wide = machine.numbers == NumberModel::wide;
-    return run_program(program, inputs, trace, wide ? kWide : kNineBit);
+    CodeNumbers numbers = machine.numbers == NumberModel::wide ? kWide : kNineBit;
+    numbers.product_rounding = machine.product_rounding;
+    numbers.expand_rule = machine.expand;
+    numbers.halving = machine.halving;
+    numbers.lerp_rounding = machine.lerp_rounding;
+    return run_program(program, inputs, trace, numbers);
 }
 
 Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,

@@ -44,6 +44,19 @@ void Machine::validate() const {
     check_range("texture_units", texture_units, 1, 16);
     check_range("general_stages", general_stages, 0, 16);
     check_range("subpixel_bits", subpixel_bits, 4, 8);
+    if (numbers == NumberModel::nine_bit) return;
+    const auto check_default = [](const char* field, bool is_default) {
+        if (!is_default) {
+            throw Error(ErrorCode::bad_option,
+                        fmt::format("{} is a choice of the nine-bit model, expected numbers = "
+                                    "nine_bit",
+                                    field));
+        }
+    };
+    check_default("product_rounding", product_rounding == ProductRounding::nearest);
+    check_default("expand", expand == ExpandRule::hardware);
+    check_default("halving", halving == Halving::half_up);
+    check_default("lerp_rounding", lerp_rounding == LerpRounding::once);
 }
 
 std::vector<std::string_view> machine_profile_names() {

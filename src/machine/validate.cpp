@@ -120,6 +120,15 @@ void check_portion(const Portion& portion, Place place, const Checker& check,
     if (portion.bias_minus_half && (portion.scale == Scale::four || portion.scale == Scale::half))
         check.fail(fmt::format("bias by -1/2 with scale {}, expected scale 1 or 2",
                                portion.scale == Scale::four ? "4" : "1/2"));
+    const auto check_blue = [&](bool set, const char* name, Register out) {
+        if (!set) return;
+        if (place == Place::alpha)
+            check.fail(fmt::format("blue of {} to alpha, which only rgb portions can do", name));
+        if (out == Register::discard)
+            check.fail(fmt::format("blue of {} to alpha, but {} is discarded", name, name));
+    };
+    check_blue(portion.ab_blue_to_alpha, "AB", portion.ab_out);
+    check_blue(portion.cd_blue_to_alpha, "CD", portion.cd_out);
     if (portion.wide && machine.numbers != NumberModel::wide)
         check.fail(fmt::format("wide results, machine '{}' has 9-bit registers", machine.name));
 }
@@ -142,8 +151,16 @@ void check_stage(std::size_t index, const GeneralStage& stage, const Machine& ma
     if (stage.const1) check_constant(fmt::format("stage {}, const1", index), *stage.const1);
     check_portion(stage.rgb, Place::rgb, Checker(fmt::format("stage {}, rgb", index), machine),
                   machine);
-    check_portion(stage.alpha, Place::alpha,
-                  Checker(fmt::format("stage {}, alpha", index), machine), machine);
+    const Checker alpha(fmt::format("stage {}, alpha", index), machine);
+    check_portion(stage.alpha, Place::alpha, alpha, machine);
+    const Portion &rgb = stage.rgb, &a = stage.alpha;
+    for (const Register out : {a.ab_out, a.cd_out, a.third_out}) {
+        if (out == Register::discard) continue;
+        if ((rgb.ab_blue_to_alpha && rgb.ab_out == out) ||
+            (rgb.cd_blue_to_alpha && rgb.cd_out == out))
+            alpha.fail(fmt::format("writes {}, whose alpha gets the blue of the rgb portion",
+                                   register_name(out)));
+    }
 }
 
 }  // namespace
@@ -153,6 +170,10 @@ void CombinerProgram::validate(const Machine& machine) const {
         throw Error(ErrorCode::bad_program,
                     fmt::format("{} general stages, machine '{}' has {}", stages.size(),
                                 machine.name, machine.general_stages));
+    if (mux_bit == MuxBit::lsb && machine.numbers != NumberModel::nine_bit)
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("mux by the lowest bit of 8, machine '{}' has wide registers",
+                                machine.name));
     for (std::size_t i = 0; i < stages.size(); ++i) check_stage(i, stages[i], machine);
     const Checker check("final combiner", machine);
     check.final_input('A', final_combiner.a, Place::final_rgb);

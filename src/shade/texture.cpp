@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/texture.hpp>
 #include <cstdint>
@@ -16,10 +17,6 @@ constexpr std::int32_t kLine = 64;  // bytes of a cache line
 std::int32_t row_pitch(int width) {
     const std::int32_t lines = (4 * (width + 1) + kLine - 1) / kLine;
     return (lines | 1) * kLine;
-}
-
-std::int8_t biased(std::uint8_t value) {
-    return static_cast<std::int8_t>(value - 128);
 }
 
 }  // namespace
@@ -51,14 +48,14 @@ Texture::Texture(const Image8& image, const Sampler& sampler)
     m_storage.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(m_height + 1) +
                      kLine);
     const auto address = reinterpret_cast<std::uintptr_t>(m_storage.data());
-    std::int8_t* texels = m_storage.data() + (kLine - address % kLine) % kLine;
+    std::uint8_t* texels = m_storage.data() + (kLine - address % kLine) % kLine;
     const std::size_t extra = m_sampler.wrap_s == Wrap::repeat ? 0 : row_bytes - 4;
     const int last_row = m_sampler.wrap_t == Wrap::repeat ? 0 : m_height - 1;
     for (int y = 0; y <= m_height; ++y) {
         const std::uint8_t* from = image.at(0, y < m_height ? y : last_row);
-        std::int8_t* to = texels + static_cast<std::ptrdiff_t>(y) * m_pitch;
-        for (std::size_t i = 0; i < row_bytes; ++i) to[i] = biased(from[i]);
-        for (std::size_t i = 0; i < 4; ++i) to[row_bytes + i] = biased(from[extra + i]);
+        std::uint8_t* to = texels + static_cast<std::ptrdiff_t>(y) * m_pitch;
+        std::copy_n(from, row_bytes, to);
+        std::copy_n(from + extra, 4, to + row_bytes);
     }
     m_texels = texels;
 }

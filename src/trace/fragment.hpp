@@ -16,8 +16,8 @@ struct FragmentInputs {
 };
 
 /// Interpolates at pixel (x, y) of the window and feeds the registers: by the scalar kernels, and
-/// exactly. `draw` was prepared with Wanted::everything. Sets barycentrics, interpolants and fetches
-/// of `out`.
+/// exactly. `draw` was prepared with Wanted::everything. Sets barycentrics, interpolants and
+/// fetches of `out`.
 FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
                             std::int32_t y, TracedFragment& out);
 

@@ -88,7 +88,7 @@ enum class Product : std::uint8_t {
 /// The third output of a portion, from the products before scale and bias.
 enum class Third : std::uint8_t {
     sum,  ///< AB + CD
-    mux,  ///< spare0.alpha at stage input < 1/2 ? AB : CD
+    mux,  ///< CD where CombinerProgram::mux_bit of spare0.alpha at stage input is set, else AB
 };
 
 enum class Scale : std::uint8_t { one, two, four, half };
@@ -106,6 +106,9 @@ struct Portion {
     Scale scale = Scale::one;
     bool bias_minus_half = false;  ///< only with scale one and two
     bool wide = false;  ///< wide numbers only: saturate at the register's range instead of [-1, 1]
+    /// rgb portions only, a switch of the hardware that OpenGL never had: the blue of the output
+    /// goes to the alpha of its register, too, which the alpha portion then may not write.
+    bool ab_blue_to_alpha = false, cd_blue_to_alpha = false;
 
     [[nodiscard]] bool writes() const {
         return ab_out != Register::discard || cd_out != Register::discard ||
@@ -127,6 +130,14 @@ struct FinalCombiner {
     Input b = a, c = a, d = a, e = a, f = a;
     Input g{Register::zero, Mapping::unsigned_identity, Component::alpha};
     bool clamp_color_sum = false;
+    /// Switches of the hardware that OpenGL never had: 1 - x of an operand of the colour sum.
+    bool complement_spare0 = false, complement_secondary = false;
+};
+
+/// The bit of the 8-bit spare0.alpha that a mux tests; CD where it is set.
+enum class MuxBit : std::uint8_t {
+    msb,  ///< alpha >= 1/2: what OpenGL asks for
+    lsb,  ///< nine-bit numbers only
 };
 
 struct CombinerProgram {
@@ -135,6 +146,7 @@ struct CombinerProgram {
     glm::vec4 const0{0.0F};  ///< clamped to [0, 1]
     glm::vec4 const1{0.0F};
     glm::vec4 fog{0.0F};
+    MuxBit mux_bit = MuxBit::msb;
 
     /// Throws Error{bad_program}: "stage 3, rgb: ..." for whatever `machine` cannot run.
     void validate(const Machine& machine) const;

@@ -18,6 +18,30 @@ enum class HalfVector {
     pixel,   ///< from the interpolated frame and position, normalised at every pixel
 };
 
+/// How x = a b, of general products, of E F and of the final A B + (1 - A) C, becomes a nine-bit
+/// code again.
+enum class ProductRounding {
+    nearest,   ///< x / 255 to nearest, as captures of the NV2A show
+    truncate,  ///< x / 255 towards zero
+    shift8,    ///< floor(x / 256)
+};
+
+/// The nine-bit 1/2 of the mappings expand and half_bias, for a code v. The output bias is 128 in
+/// both, as captures show.
+enum class ExpandRule {
+    hardware,  ///< 128: 2 (v - 128) and v - 128, so that 128 is zero
+    ideal,     ///< 127.5: 2 v - 255 and v - 127.5, ties to even
+};
+
+/// What the output scale 1/2 does with an odd nine-bit code.
+enum class Halving {
+    half_up,  ///< as captures show
+    down,
+};
+
+/// Whether the final combiner rounds A B + (1 - A) C once or each product, in nine bits.
+enum class LerpRounding { once, each };
+
 /// A machine profile: data that says what a program may use and how numbers behave.
 /// Any field may be overridden after `machine_profile()`; `validate()` checks the result.
 struct Machine {
@@ -26,11 +50,17 @@ struct Machine {
     int general_stages = 16;      ///< 0 .. 16
     bool stage_constants = true;  ///< const0 and const1 may differ from stage to stage
     NumberModel numbers = NumberModel::wide;
+    // Choices of the nine-bit model; the defaults are those of the NV2A.
+    ProductRounding product_rounding = ProductRounding::nearest;
+    ExpandRule expand = ExpandRule::hardware;
+    Halving halving = Halving::half_up;
+    LerpRounding lerp_rounding = LerpRounding::once;
     HalfVector half_vector = HalfVector::pixel;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
 
-    /// Throws Error{bad_option} for a field outside its range.
+    /// Throws Error{bad_option} for a field outside its range, and for a choice of the nine-bit
+    /// model on a wide machine.
     void validate() const;
 };
 

@@ -40,10 +40,10 @@ struct Sampler {
 
 /// A texture in the layout that the fetch kernels read. Immutable.
 ///
-/// Texels are stored as four signed bytes (value - 128), each row followed by one extra column (the
-/// first texel again, or the last one when clamping), so that a horizontal pair is one 64-bit load,
-/// and the last row by one extra row likewise, so that the lower pair is one pitch further.
-/// The row pitch is an odd number of cache lines, so that the rows of a block spread over the sets.
+/// Each row is followed by one extra column (the first texel again, or the last one when clamping),
+/// so that a horizontal pair is one 64-bit load, and the last row by one extra row likewise, so
+/// that the lower pair is one pitch further. The row pitch is an odd number of cache lines, so that
+/// the rows of a block spread over the sets.
 class Texture {
   public:
     /// Largest width and height.
@@ -63,16 +63,16 @@ class Texture {
     [[nodiscard]] const Sampler& sampler() const noexcept { return m_sampler; }
     /// Bytes from one row to the next.
     [[nodiscard]] std::int32_t pitch() const noexcept { return m_pitch; }
-    /// Texel (0, 0): four bytes, each value - 128.
-    [[nodiscard]] const std::int8_t* texels() const noexcept { return m_texels; }
+    /// Texel (0, 0): r, g, b, a.
+    [[nodiscard]] const std::uint8_t* texels() const noexcept { return m_texels; }
 
   private:
     int m_width;
     int m_height;
     std::int32_t m_pitch;
     Sampler m_sampler;
-    std::vector<std::int8_t> m_storage;
-    const std::int8_t* m_texels;
+    std::vector<std::uint8_t> m_storage;
+    const std::uint8_t* m_texels;
 };
 
 using TexturePtr = std::shared_ptr<const Texture>;
