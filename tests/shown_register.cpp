@@ -5,6 +5,7 @@
 #include <array>
 #include <burnish/error.hpp>
 #include <burnish/trace.hpp>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -193,6 +194,25 @@ TEST(ShownRegister, BytesStopWhereWideRegistersGoOn) {
         EXPECT_EQ(pixel<float>(floats, 1, 1), (std::array<float, 4>{-1.5F, 1.75F, 0.0F, 1.0F}));
         EXPECT_EQ(pixel<std::uint8_t>(bytes, 1, 1), (std::array<std::uint8_t, 4>{0, 255, 128, 255}))
             << isa.name;
+    }
+}
+
+// How a byte codes a register does not depend on how the machine rounds.
+TEST(ShownRegister, CodesAreTheSameOnEveryMachine) {
+    Machine machine = machine_profile("nv2a");
+    machine.product_rounding = ProductRounding::shift8;
+    machine.halving = Halving::down;
+    for (const Register reg : {Register::tex0, Register::spare1}) {
+        const Scene scene = ball_scene(machine);
+        Framebuffer floats(24, 18, PixelFormat::rgba32f), bytes(24, 18);
+        Renderer renderer;
+        renderer.render(scene, floats, ShownRegister{reg, 1});
+        renderer.render(scene, bytes, ShownRegister{reg, 1});
+        const auto real = pixel<float>(floats, 12, 9);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto code = static_cast<int>(std::lround(real[c] * 255.0F));
+            EXPECT_EQ(int{pixel<std::uint8_t>(bytes, 12, 9)[c]}, coded_byte(code, 255)) << c;
+        }
     }
 }
 

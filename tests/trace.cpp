@@ -362,6 +362,21 @@ TEST(Trace, ShowsResultsThatNothingReads) {
     EXPECT_EQ(f.codes, (Four{0, 0, 0, 0}));
 }
 
+// spare0 = (0, -50, 254) as above, and its blue goes to the alpha that the quad's program wrote.
+TEST(Trace, BlueThatGoesToAlphaIsMarked) {
+    Scene scene = quad_scene(machine_profile("nv2a"));
+    auto material = std::make_shared<Material>(*scene.objects[0].material);
+    GeneralStage& stage = material->program->combiners.stages[0];
+    stage.alpha = {};
+    stage.rgb.ab_blue_to_alpha = true;
+    scene.objects[0].material = material;
+    const TracedFragment f = fragment_at(scene, 2, 5);
+    const TracedRegister& spare0 = row(f.stages[1], Register::spare0);
+    EXPECT_EQ(spare0.codes, (Four{0, -50, 254, 254}));
+    EXPECT_EQ(spare0.changed, (std::array<bool, 4>{true, true, true, true}));
+    EXPECT_NEAR(spare0.color[3].exact, 1.0, 1e-12);
+}
+
 TEST(Trace, Background) {
     Scene scene = quad_scene(machine_profile("nv2a"));
     scene.width = 12;
