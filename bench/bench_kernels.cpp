@@ -326,23 +326,19 @@ constexpr int kTrash = 30;
 
 /// Inputs in planes 0 .. 12, outputs from 14 on.
 PortionCtx portion(ProductKind ab, ProductKind cd, ThirdKind third) {
-    constexpr std::int16_t t = kTrash;
-    PortionCtx ctx{operand(0, 6),
-                   operand(3, 6),
-                   operand(6, 6),
-                   operand(9, 6),
-                   ab,
-                   cd,
-                   third,
-                   OutputScale::one,
-                   0,
-                   0,
-                   3,
-                   12,
-                   {14, 15, 16},
-                   {t, t, t},
-                   {t, t, t}};
+    PortionCtx ctx{};
+    ctx.a = operand(0, 6);
+    ctx.b = operand(3, 6);
+    ctx.c = operand(6, 6);
+    ctx.d = operand(9, 6);
+    ctx.ab = ab;
+    ctx.cd = cd;
+    ctx.third = third;
+    ctx.components = 3;
+    ctx.mux_plane = 12;
     for (int c = 0; c < 3; ++c) {
+        ctx.ab_out[c] = static_cast<std::int16_t>(14 + c);
+        ctx.cd_out[c] = ctx.third_out[c] = kTrash;
         const auto plane = static_cast<std::int16_t>(17 + c);
         if (third != ThirdKind::none)
             ctx.third_out[c] = plane;

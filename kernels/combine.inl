@@ -59,7 +59,7 @@ struct NineBit {
             return min(max(x, I16(kLowest)), I16(kHighest));
         }
         int bias, left, right;
-        bool plain = bias == 0 && left == 0;  // then right is 0, too
+        bool plain = bias == 0 && left == 0 && right == 0;
     };
 };
 
@@ -165,7 +165,7 @@ struct Wide {
             return min(max(v, lowest), I16(limit));
         }
         int bias, left, right;
-        bool plain = bias == 0 && left == 0;
+        bool plain = bias == 0 && left == 0 && right == 0;
         std::int16_t limit;
     };
 };

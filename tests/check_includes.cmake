@@ -31,7 +31,7 @@ set(std "<[a-z0-9_]+>")  # one word in brackets: the standard library
 set(public "<burnish/[a-z0-9_]+\\.hpp>")
 
 # Each library behind one door.
-rule("^src/(app|core|geometry|image|include|machine|mesh|models|raster|scene|shade|trace|pipeline|draw)"
+rule("^src/(app|core|geometry|image|include|machine|mesh|models|program|raster|scene|shade|trace|pipeline|draw)"
   DENY "<(OpenMesh|OpenImageIO|toml\\+\\+)/" "only src/io may see file formats")
 rule("^src/io/([^i]|i[^m])" DENY "<OpenImageIO/" "only src/io/image_io.cpp may")
 rule("^src/io/image_io\\.cpp" DENY "<fmt/" "OpenImageIO bundles another fmt")
@@ -50,12 +50,14 @@ rule("^src/" DENY "\"kernels/([^pskt]|simd)" "src/ sees the contract only")
 rule("^kernels/" DENY "^(<(burnish|glm|fmt)/|\"[^k])" "kernels see neither src/ nor GLM")
 
 # One direction: app -> pipeline -> raster, shade -> geometry -> image, mesh, machine -> core.
-rule("^src/app/" DENY "\"(geometry|image|io|kernels|machine|mesh|pipeline|raster|scene|shade|trace)[/.]"
+rule("^src/app/" DENY "\"(geometry|image|io|kernels|machine|mesh|pipeline|program|raster|scene|shade|trace)[/.]"
   "the command is a user of the library")
-rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|raster|scene|shade|trace)[/.]"
+rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|program|raster|scene|shade|trace)[/.]"
   "core knows no stage")
-rule("^src/(image|mesh|machine|scene|models)/" DENY "\"(app|geometry|io|pipeline|raster|shade|trace)[/.]"
+rule("^src/(image|mesh|machine|models|program|scene)/" DENY "\"(app|geometry|io|pipeline|raster|shade|trace)[/.]"
   "data knows no stage")
+rule("^src/program/" DENY "\"(image|kernels|machine|mesh|models|scene)[/.]"
+  "text knows the public data only")
 rule("^src/io/" DENY "\"(app|geometry|kernels|pipeline|raster|shade|trace)[/.]" "files know no stage")
 rule("^src/geometry/" DENY "\"(app|io|pipeline|raster|shade|trace)[/.]" "later stage")
 rule("^src/raster/" DENY "\"(app|io|pipeline|shade|trace)[/.]" "only pipeline.cpp and src/trace know both")

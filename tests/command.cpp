@@ -28,7 +28,7 @@ TEST_F(Command, HelpListsTheCommandsThatAreThere) {
     const Result help = run("--help");
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");
-    for (const char* verb : {"render", "trace", "bake", "bench", "info"})
+    for (const char* verb : {"render", "trace", "bake", "bench", "compile", "info"})
         EXPECT_SAYS(help.out, verb);
     EXPECT_EQ(help.out.find("experiment"), std::string::npos);
     const Result render = run("render --help");

@@ -35,21 +35,17 @@ Operand operand(int first, int mapping) {
 }
 
 PortionCtx portion(ProductKind kind, ThirdKind third, ScaleBias scale, int components) {
-    PortionCtx ctx{operand(0, 6),
-                   operand(3, 6),
-                   operand(6, 6),
-                   operand(9, 6),
-                   kind,
-                   kind,
-                   third,
-                   scale.scale,
-                   scale.bias,
-                   0,
-                   static_cast<std::uint8_t>(components),
-                   kMuxPlane,
-                   {},
-                   {},
-                   {}};
+    PortionCtx ctx{};
+    ctx.a = operand(0, 6);
+    ctx.b = operand(3, 6);
+    ctx.c = operand(6, 6);
+    ctx.d = operand(9, 6);
+    ctx.ab = ctx.cd = kind;
+    ctx.third = third;
+    ctx.scale = scale.scale;
+    ctx.bias_minus_half = scale.bias;
+    ctx.components = static_cast<std::uint8_t>(components);
+    ctx.mux_plane = kMuxPlane;
     for (int c = 0; c < 3; ++c) {
         ctx.ab_out[c] = static_cast<std::int16_t>(kOutputs + c);
         ctx.cd_out[c] = static_cast<std::int16_t>(kOutputs + 3 + c);
@@ -78,11 +74,13 @@ void fill(PacketMemory& packet, int plane, int value) {
 
 // The claim "no ties, nearest" covers every pair of mapped operands: 512^2 pairs of registers under
 // all 64 pairs of mappings contain all 513^2 products.
-void check_every_nine_bit_product(const KernelTable& table, ProductKind kind) {
+void check_every_nine_bit_product(const KernelTable& table, ProductKind kind,
+                                  Rounding rounding = Rounding::nearest) {
     PacketMemory packet;
     fill(packet, kMuxPlane, 0);
     for (int pair = 0; pair < kMappings * kMappings; ++pair) {
         PortionCtx ctx = portion(kind, ThirdKind::sum, kScales[0], 3);
+        ctx.rounding = rounding;
         ctx.a.mapping = ctx.d.mapping = static_cast<std::uint8_t>(pair / kMappings);
         ctx.b.mapping = ctx.c.mapping = static_cast<std::uint8_t>(pair % kMappings);
         const Written written = outputs_of(ctx);
@@ -110,6 +108,39 @@ TEST_P(KernelTest, NineBitMultiplyOfEveryPairOfOperands) {
 
 TEST_P(KernelTest, NineBitDotOfEveryPairOfOperands) {
     check_every_nine_bit_product(table(), ProductKind::dot);
+}
+
+TEST_P(KernelTest, NineBitTruncatedMultiplyOfEveryPairOfOperands) {
+    check_every_nine_bit_product(table(), ProductKind::multiply, Rounding::truncate);
+}
+
+TEST_P(KernelTest, NineBitShiftedMultiplyOfEveryPairOfOperands) {
+    check_every_nine_bit_product(table(), ProductKind::multiply, Rounding::shift8);
+}
+
+// expand and half_bias with 1/2 = 127.5, of every register, whatever products do.
+TEST_P(KernelTest, NineBitIdealHalvesOfEveryRegister) {
+    PacketMemory packet;
+    fill(packet, kMuxPlane, 0);
+    for (int k = 3; k < 12; ++k) fill(packet, k, 255);
+    for (const Rounding rounding : {Rounding::nearest, Rounding::truncate, Rounding::shift8}) {
+        for (int mapping = 2; mapping < 6; ++mapping) {
+            PortionCtx ctx = portion(ProductKind::multiply, ThirdKind::none, kScales[0], 3);
+            ctx.rounding = rounding;
+            ctx.a.mapping = ctx.d.mapping =
+                static_cast<std::uint8_t>(Operand::kIdealHalf + mapping);
+            const Written written = outputs_of(ctx);
+            for (const int first : {-256, 0}) {
+                for (const int k : {0, 1, 2, 9, 10, 11})
+                    for (int i = 0; i < kPacketSize; ++i)
+                        packet.plane(k)[i] = static_cast<std::int16_t>(first + i);
+                ASSERT_EQ(
+                    stage_difference(table(), &KernelTable::portion_nine_bit, packet, ctx, written),
+                    "")
+                    << name("portion_nine_bit") << ", mapping " << mapping << ", from " << first;
+            }
+        }
+    }
 }
 
 // Squares have a short product of their own: every register under every mapping.
@@ -252,6 +283,19 @@ PortionCtx random_portion(Random& random) {
     return ctx;
 }
 
+/// The choices that only the nine-bit model has.
+void choose(Random& random, PortionCtx& ctx) {
+    ctx.halve_down = static_cast<std::uint8_t>(random.below(2));
+    ctx.mux_lsb = static_cast<std::uint8_t>(random.below(2));
+    if (random.chance(2)) return;
+    ctx.rounding = random.pick(std::array{Rounding::nearest, Rounding::truncate, Rounding::shift8});
+    for (Operand* o : {&ctx.a, &ctx.b, &ctx.c, &ctx.d}) {
+        const bool has_half = o->mapping >= 2 && o->mapping <= 5;
+        if (has_half && random.chance(2))
+            o->mapping = static_cast<std::uint8_t>(o->mapping + Operand::kIdealHalf);
+    }
+}
+
 void check_random_portions(const KernelTable& table, PortionStage stage, int rounds,
                            const std::vector<std::int16_t>& extremes, int low, int high) {
     for (int seed = 0; seed < rounds; ++seed) {
@@ -267,13 +311,18 @@ void check_random_portions(const KernelTable& table, PortionStage stage, int rou
         }
         for (int variant = 0; variant < 40; ++variant) {
             PortionCtx ctx = random_portion(random);
-            if (stage == &KernelTable::portion_nine_bit) ctx.wide = 0;
+            if (stage == &KernelTable::portion_nine_bit) {
+                ctx.wide = 0;
+                choose(random, ctx);
+            }
             const Written written = outputs_of(ctx);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, written), "")
                 << table.isa << " portion, seed " << seed << ", variant " << variant << ", ab "
                 << static_cast<int>(ctx.ab) << ", cd " << static_cast<int>(ctx.cd) << ", third "
                 << static_cast<int>(ctx.third) << ", scale " << static_cast<int>(ctx.scale)
-                << ", bias " << int{ctx.bias_minus_half} << ", components " << int{ctx.components}
+                << ", rounding " << static_cast<int>(ctx.rounding) << ", halve down "
+                << int{ctx.halve_down} << ", lsb " << int{ctx.mux_lsb} << ", bias "
+                << int{ctx.bias_minus_half} << ", components " << int{ctx.components}
                 << ", mappings " << int{ctx.a.mapping} << int{ctx.b.mapping} << int{ctx.c.mapping}
                 << int{ctx.d.mapping};
         }

@@ -168,6 +168,8 @@ FinalCtx random_final(Random& random) {
     for (std::int16_t& plane : ctx.secondary)
         plane = static_cast<std::int16_t>(random.below(kInputs));
     ctx.clamp_color_sum = static_cast<std::uint8_t>(random.below(2));
+    ctx.complement_spare0 = static_cast<std::uint8_t>(random.chance(3) ? 1 : 0);
+    ctx.complement_secondary = static_cast<std::uint8_t>(random.chance(3) ? 1 : 0);
     for (Operand* o : {&ctx.b, &ctx.c, &ctx.d})
         if (random.chance(3)) read_instead(ctx, *o, FinalCtx::kColorSum);
     for (Operand* o : {&ctx.a, &ctx.b, &ctx.c, &ctx.d})
@@ -194,7 +196,12 @@ void check_random_finals(const KernelTable& table, FinalStage stage,
                     random.chance(3) ? random.pick(extremes) : random.between(low, high));
         }
         for (int variant = 0; variant < 25; ++variant) {
-            const FinalCtx ctx = random_final(random);
+            FinalCtx ctx = random_final(random);
+            if (stage == &KernelTable::final_nine_bit && random.chance(2)) {
+                ctx.rounding = random.pick(
+                    std::array{Rounding::nearest, Rounding::truncate, Rounding::shift8});
+                ctx.round_each = static_cast<std::uint8_t>(random.below(2));
+            }
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFinalWrites), "")
                 << table.isa << " final, seed " << seed << ", variant " << variant;
         }

@@ -280,6 +280,12 @@ TEST(MachineProfile, NamesAndLimits) {
     EXPECT_EQ(machine_profile("nv2a").texture_units, 4);
     EXPECT_EQ(machine_profile("nv2a").general_stages, 8);
     EXPECT_EQ(machine_profile("nv2a").numbers, NumberModel::nine_bit);
+    EXPECT_FALSE(machine_profile("geforce256").stage_fetches);
+    EXPECT_FALSE(machine_profile("nv2a").stage_fetches);
+    EXPECT_TRUE(machine_profile("ideal").stage_fetches);
+    EXPECT_EQ(machine_profile("geforce256").texture_operations, TextureOperations::plain);
+    EXPECT_EQ(machine_profile("nv2a").texture_operations, TextureOperations::nv2a);
+    EXPECT_EQ(machine_profile("ideal").texture_operations, TextureOperations::all);
     EXPECT_EQ(machine_profile("nv2a").subpixel_bits, 4);  // 1/16 pixel, measured
     EXPECT_TRUE(machine_profile("nv2a").snap_floor);
     EXPECT_EQ(machine_profile("ideal").numbers, NumberModel::wide);

@@ -31,21 +31,24 @@ Operand operand(int first, int mapping = 6) {
 
 /// What a portion computes from four colours; spare0.alpha and the rest are the caller's.
 struct PortionRun {
-    PortionCtx ctx{operand(0),
-                   operand(3),
-                   operand(6),
-                   operand(9),
-                   ProductKind::multiply,
-                   ProductKind::multiply,
-                   ThirdKind::sum,
-                   OutputScale::one,
-                   0,
-                   0,
-                   3,
-                   12,
-                   {14, 15, 16},
-                   {17, 18, 19},
-                   {20, 21, 22}};
+    PortionCtx ctx{.a = operand(0),
+                   .b = operand(3),
+                   .c = operand(6),
+                   .d = operand(9),
+                   .ab = ProductKind::multiply,
+                   .cd = ProductKind::multiply,
+                   .third = ThirdKind::sum,
+                   .scale = OutputScale::one,
+                   .rounding = Rounding::nearest,
+                   .halve_down = 0,
+                   .mux_lsb = 0,
+                   .bias_minus_half = 0,
+                   .wide = 0,
+                   .components = 3,
+                   .mux_plane = 12,
+                   .ab_out = {14, 15, 16},
+                   .cd_out = {17, 18, 19},
+                   .third_out = {20, 21, 22}};
     Rgb a{}, b{255, 255, 255}, c{}, d{255, 255, 255};
     int mux_alpha = 0;
     Rgb ab{}, cd{}, third{};

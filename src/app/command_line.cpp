@@ -261,6 +261,14 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
     verb.add_flag("--json", options.json, "Print JSON");
 }
 
+void add_compile(CLI::App& verb, CompileOptions& options) {
+    verb.add_option("FILE.rc", options.combiners, "Combiners: !!RC1.0 or !!BRN1.0")
+        ->required()
+        ->type_name("");
+    verb.add_option("FILE.ts", options.texture_shader, "Texture shader: !!TS1.0")->type_name("");
+    verb.add_flag("--json", options.json, "Print JSON");
+}
+
 void add_bake_mesh(CLI::App& verb, BakeMeshOptions& options) {
     verb.add_option_function<std::string>(
             "SHAPE",
@@ -296,6 +304,7 @@ struct Parser {
     RenderOptions render;
     TraceOptions trace;
     BenchOptions bench;
+    CompileOptions compile;
     InfoOptions info;
     BakeBrushedOptions brushed;
     BakeMeshOptions mesh;
@@ -306,6 +315,7 @@ struct Parser {
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
+    CLI::App* compile_verb = app.add_subcommand("compile", "Checks and prints program texts");
     CLI::App* info_verb =
         app.add_subcommand("info", "Version, instruction sets, profiles, formats");
 
@@ -316,6 +326,7 @@ struct Parser {
         add_render(*render_verb, render);
         add_trace(*trace_verb, trace);
         add_bench(*bench_verb, bench);
+        add_compile(*compile_verb, compile);
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
         add_bake_mesh(*mesh_verb, mesh);
@@ -325,6 +336,7 @@ struct Parser {
         if (render_verb->parsed()) return render;
         if (trace_verb->parsed()) return trace;
         if (bench_verb->parsed()) return bench;
+        if (compile_verb->parsed()) return compile;
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
         return mesh;

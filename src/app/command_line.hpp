@@ -60,6 +60,12 @@ struct BenchOptions {
     bool json = false;
 };
 
+struct CompileOptions {
+    std::filesystem::path combiners;
+    std::filesystem::path texture_shader;  ///< empty: none
+    bool json = false;
+};
+
 struct InfoOptions {
     bool json = false;
 };
@@ -82,8 +88,8 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, InfoOptions,
-                             BakeBrushedOptions, BakeMeshOptions>;
+using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
+                             InfoOptions, BakeBrushedOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

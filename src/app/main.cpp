@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
         if (std::fflush(stdout) != 0)
             throw burnish::Error(burnish::ErrorCode::io, "standard output cannot be written");
         return 0;
+    } catch (const burnish::app::BadInput& errors) {
+        for (const std::string& line : errors.lines) report(line);
+        return 3;
     } catch (const burnish::Error& error) {
         report(error.what());
         return exit_code(error.code());

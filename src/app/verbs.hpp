@@ -1,15 +1,29 @@
 #pragma once
 
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/command_line.hpp"
 
 /// The commands. Each does its work, prints its results to standard output and notes to standard
-/// error, and throws Error for whatever goes wrong.
+/// error, and throws Error or BadInput for whatever goes wrong.
 namespace burnish::app {
+
+/// Bad input that takes several lines to tell, exit code 3.
+struct BadInput : std::exception {
+    std::vector<std::string> lines;
+
+    explicit BadInput(std::vector<std::string> what) : lines(std::move(what)) {}
+    [[nodiscard]] const char* what() const noexcept override { return "bad input"; }
+};
 
 void run(const PrintText& text);
 void run(const RenderOptions& options);
 void run(const TraceOptions& options);
 void run(const BenchOptions& options);
+void run(const CompileOptions& options);
 void run(const InfoOptions& options);
 void run(const BakeBrushedOptions& options);
 void run(const BakeMeshOptions& options);

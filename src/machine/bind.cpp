@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "machine/fetches.hpp"
+
 namespace burnish {
 
 namespace {
@@ -494,6 +496,7 @@ bool BoundProgram::reads(Register r) const {
 BoundProgram bind(const CombinerProgram& program, const Machine& machine,
                   std::uint32_t enabled_units, const Wanted& wanted) {
     program.validate(machine);
+    require_no_fetches(program);
     return Binder(program, machine, enabled_units).bind(wanted);
 }
 

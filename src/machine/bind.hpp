@@ -46,7 +46,8 @@ struct Wanted {
 };
 
 /// @param enabled_units bit i: texture unit i delivers texels; others read (0, 0, 0, 1).
-/// Throws Error{bad_program} for what `machine` cannot run.
+/// Throws Error{bad_program} for what `machine` cannot run, and for fetches between stages, which
+/// are not supported yet.
 BoundProgram bind(const CombinerProgram& program, const Machine& machine,
                   std::uint32_t enabled_units, const Wanted& wanted = {});
 

@@ -4,13 +4,6 @@
 namespace burnish {
 namespace {
 
-/// Zero reads the same in every component; alpha is the one that an alpha portion can name.
-void default_to_alpha(Portion& portion) {
-    for (Input* input : {&portion.a, &portion.b, &portion.c, &portion.d}) {
-        if (input->reg == Register::zero) input->component = Component::alpha;
-    }
-}
-
 GeneralStage& open_stage(CombinerProgram& program) {
     if (program.stages.empty())
         throw Error(ErrorCode::bad_program, "no open stage, expected stage() before a portion");
@@ -18,6 +11,14 @@ GeneralStage& open_stage(CombinerProgram& program) {
 }
 
 }  // namespace
+
+GeneralStage idle_stage() {
+    GeneralStage stage;
+    // Zero reads the same in every component; alpha is the one that an alpha portion can name.
+    for (Input* input : {&stage.alpha.a, &stage.alpha.b, &stage.alpha.c, &stage.alpha.d})
+        input->component = Component::alpha;
+    return stage;
+}
 
 PortionBuilder& PortionBuilder::ab(const combine::ProductExpr& p, Register out) {
     m_portion->a = p.x;
@@ -63,7 +64,7 @@ PortionBuilder& PortionBuilder::wide() {
 }
 
 ProgramBuilder& ProgramBuilder::stage() {
-    default_to_alpha(m_program.stages.emplace_back().alpha);
+    m_program.stages.push_back(idle_stage());
     return *this;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "machine/fetches.hpp"
+
 namespace burnish {
 
 namespace {
@@ -309,6 +311,7 @@ int color_code(float x, NumberModel numbers) {
 
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace) {
+    require_no_fetches(program);
     CodeNumbers numbers = machine.numbers == NumberModel::wide ? kWide : kNineBit;
     numbers.product_rounding = machine.product_rounding;
     numbers.expand_rule = machine.expand;
@@ -319,6 +322,7 @@ Codes run_combiners(const CombinerProgram& program, const Machine& machine,
 
 Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
                             const RealRegisters& inputs, std::vector<RealRegisters>* trace) {
+    require_no_fetches(program);
     const bool wide = machine.numbers == NumberModel::wide;
     return run_program(program, inputs, trace, wide ? kWideReals : kNineBitReals);
 }

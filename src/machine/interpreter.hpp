@@ -44,6 +44,7 @@ int code_of_one(NumberModel numbers);
 /// @param trace    gets the registers before the first stage, after each stage (with the constants
 ///                 of that stage) and as the final combiner saw them, that is with the global
 ///                 constants, color_sum and final_product; stages + 2 in all.
+/// Throws Error{bad_program} for fetches between stages, which are not supported yet.
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace = nullptr);
 

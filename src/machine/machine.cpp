@@ -14,6 +14,8 @@ Machine nv2a() {
     machine.name = "nv2a";
     machine.texture_units = 4;
     machine.general_stages = 8;
+    machine.stage_fetches = false;
+    machine.texture_operations = TextureOperations::nv2a;
     machine.numbers = NumberModel::nine_bit;
     machine.half_vector = HalfVector::vertex;
     machine.subpixel_bits = 4;
@@ -29,6 +31,7 @@ Machine geforce256() {
     machine.texture_units = 2;
     machine.general_stages = 2;
     machine.stage_constants = false;
+    machine.texture_operations = TextureOperations::plain;
     return machine;
 }
 

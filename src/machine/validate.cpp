@@ -133,6 +133,37 @@ void check_portion(const Portion& portion, Place place, const Checker& check,
         check.fail(fmt::format("wide results, machine '{}' has 9-bit registers", machine.name));
 }
 
+void check_fetch(const StageFetch& fetch, const Checker& check) {
+    if (!is_texture(fetch.destination))
+        check.fail(fmt::format("the destination is {}, expected a texture register",
+                               register_name(fetch.destination)));
+    check.require_unit(fetch.destination, "writes");
+    if (fetch.target > FetchTarget::table_rectangle) check.fail("an unknown target");
+    for (int i = 0; i < coordinate_count(fetch.target); ++i) {
+        const FetchCoordinate& from = fetch.coordinates[static_cast<std::size_t>(i)];
+        if (from.component > 3)
+            check.fail(fmt::format("component {}, expected 0 .. 3", from.component));
+        const Component component = from.component == 3 ? Component::alpha : Component::rgb;
+        check.general_input(
+            "STR" [i], { from.reg, Mapping::signed_identity, component }, Place::rgb);
+    }
+}
+
+void check_fetches(std::size_t index, const GeneralStage& stage, const Machine& machine) {
+    if (stage.fetches.empty()) return;
+    const Checker check(fmt::format("stage {}, fetch", index), machine);
+    if (!machine.stage_fetches)
+        check.fail(fmt::format("machine '{}' has no fetches between general stages", machine.name));
+    std::array<bool, 16> written{};
+    for (const StageFetch& fetch : stage.fetches) {
+        check_fetch(fetch, check);
+        bool& taken = written[static_cast<std::size_t>(fetch.destination) -
+                              static_cast<std::size_t>(Register::tex0)];
+        if (taken) check.fail(fmt::format("{} is written twice", register_name(fetch.destination)));
+        taken = true;
+    }
+}
+
 void check_constant(std::string_view name, const glm::vec4& value) {
     for (int i = 0; i < 4; ++i) {
         if (!std::isfinite(value[i]))
@@ -149,6 +180,7 @@ void check_stage(std::size_t index, const GeneralStage& stage, const Machine& ma
                                 index, machine.name));
     if (stage.const0) check_constant(fmt::format("stage {}, const0", index), *stage.const0);
     if (stage.const1) check_constant(fmt::format("stage {}, const1", index), *stage.const1);
+    check_fetches(index, stage, machine);
     check_portion(stage.rgb, Place::rgb, Checker(fmt::format("stage {}, rgb", index), machine),
                   machine);
     const Checker alpha(fmt::format("stage {}, alpha", index), machine);

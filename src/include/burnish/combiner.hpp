@@ -78,6 +78,8 @@ struct Input {
     Register reg = Register::zero;
     Mapping mapping = Mapping::signed_identity;
     Component component = Component::rgb;
+
+    friend bool operator==(const Input&, const Input&) = default;
 };
 
 enum class Product : std::uint8_t {
@@ -114,15 +116,57 @@ struct Portion {
         return ab_out != Register::discard || cd_out != Register::discard ||
                third_out != Register::discard;
     }
+
+    friend bool operator==(const Portion&, const Portion&) = default;
 };
 
-/// Both portions read the registers as they were before the stage.
+enum class FetchTarget : std::uint8_t {
+    table_1d,
+    table_2d,
+    table_3d,
+    table_cube_map,
+    table_rectangle,  ///< coordinates in texels
+};
+
+/// How many coordinates a fetch from `target` takes: 1, 2 or 3.
+int coordinate_count(FetchTarget target);
+
+/// A register component as a texture coordinate.
+struct FetchCoordinate {
+    Register reg = Register::zero;
+    std::uint8_t component = 0;  ///< 0 .. 3: r, g, b, a
+    bool expand = false;         ///< 2 max(0, e) - 1 instead of e
+
+    friend bool operator==(const FetchCoordinate&, const FetchCoordinate&) = default;
+};
+
+/// A texture fetch between general stages. The register that it writes names the unit whose texture
+/// is read.
+struct StageFetch {
+    Register destination = Register::tex0;
+    FetchTarget target = FetchTarget::table_2d;
+    /// The first coordinate_count(target) of them count, the others stay as they are here.
+    std::array<FetchCoordinate, 3> coordinates{};
+
+    friend bool operator==(const StageFetch&, const StageFetch&) = default;
+};
+
+/// Both portions read the registers as they were before the stage, that is after its fetches.
 struct GeneralStage {
     Portion rgb;
     Portion alpha;
     std::optional<glm::vec4> const0;  ///< this stage's own constants, if the machine has them
     std::optional<glm::vec4> const1;
+    /// Before the stage, one after the other: a fetch may read what an earlier one delivered. Each
+    /// has a destination of its own. Constants are this stage's.
+    std::vector<StageFetch> fetches;
+
+    friend bool operator==(const GeneralStage&, const GeneralStage&) = default;
 };
+
+/// A stage that does nothing, as the text syntax and ProgramBuilder::stage() have it: every input
+/// is zero, alpha's in the alpha portion.
+GeneralStage idle_stage();
 
 /// rgb = min(1, A*B + (1 - A)*C + D), alpha = G, for unsigned mappings only.
 struct FinalCombiner {
@@ -132,6 +176,8 @@ struct FinalCombiner {
     bool clamp_color_sum = false;
     /// Switches of the hardware that OpenGL never had: 1 - x of an operand of the colour sum.
     bool complement_spare0 = false, complement_secondary = false;
+
+    friend bool operator==(const FinalCombiner&, const FinalCombiner&) = default;
 };
 
 /// The bit of the 8-bit spare0.alpha that a mux tests; CD where it is set.
@@ -150,6 +196,8 @@ struct CombinerProgram {
 
     /// Throws Error{bad_program}: "stage 3, rgb: ..." for whatever `machine` cannot run.
     void validate(const Machine& machine) const;
+
+    friend bool operator==(const CombinerProgram&, const CombinerProgram&) = default;
 };
 
 /// Short names for building programs in C++:

@@ -42,6 +42,13 @@ enum class Halving {
 /// Whether the final combiner rounds A B + (1 - A) C once or each product, in nine bits.
 enum class LerpRounding { once, each };
 
+/// What texture units can do before the combiners (burnish/texture_shader.hpp).
+enum class TextureOperations {
+    plain,  ///< fetches by interpolated coordinates from 1D, 2D, rectangle and cube map textures
+    nv2a,   ///< those of NV_texture_shader and NV_texture_shader2, and the chip's BRDF mode
+    all,    ///< NV_texture_shader3, too
+};
+
 /// A machine profile: data that says what a program may use and how numbers behave.
 /// Any field may be overridden after `machine_profile()`; `validate()` checks the result.
 struct Machine {
@@ -49,6 +56,8 @@ struct Machine {
     int texture_units = 16;       ///< 1 .. 16
     int general_stages = 16;      ///< 0 .. 16
     bool stage_constants = true;  ///< const0 and const1 may differ from stage to stage
+    bool stage_fetches = true;    ///< texture fetches between general stages
+    TextureOperations texture_operations = TextureOperations::all;
     NumberModel numbers = NumberModel::wide;
     // Choices of the nine-bit model; the defaults are those of the NV2A.
     ProductRounding product_rounding = ProductRounding::nearest;

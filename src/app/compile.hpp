@@ -1,0 +1,34 @@
+#pragma once
+
+#include <burnish/combiner.hpp>
+#include <burnish/texture_shader.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What `burnish compile` has found out, as text for people and for programs.
+namespace burnish::app {
+
+struct ProfileVerdict {
+    std::string_view profile;
+    std::string complaint;  ///< why the machine cannot run the programs; empty if it can
+};
+
+struct Compiled {
+    std::string combiners_file;
+    CombinerProgram combiners;
+    std::string texture_shader_file;
+    std::optional<TextureShader> texture_shader;
+    std::vector<ProfileVerdict> profiles;
+};
+
+/// Tables of every stage, the final combiner, constants, texture units and profiles.
+std::string compiled_text(const Compiled& compiled);
+/// One object, one line; inputs as print_input writes them.
+std::string compiled_json(const Compiled& compiled);
+
+/// The header of the oldest language that can say it, without the exclamation marks.
+std::string language_of(const CombinerProgram& program);
+
+}  // namespace burnish::app

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <burnish/combiner.hpp>
+
+namespace burnish {
+
+/// Throws Error{bad_program} for a program that fetches between general stages: nothing runs such
+/// fetches yet.
+void require_no_fetches(const CombinerProgram& program);
+
+}  // namespace burnish
