@@ -5,6 +5,7 @@
 #include <array>
 #include <burnish/error.hpp>
 #include <burnish/trace.hpp>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -160,6 +161,59 @@ TEST(ShownRegister, BeyondTheLastStageIsTheLast) {
     renderer.render(scene, unnumbered, ShownRegister{Register::spare1});
     EXPECT_EQ(std::memcmp(last.pixels(), beyond.pixels(), 24 * 18 * 4), 0);
     EXPECT_EQ(std::memcmp(last.pixels(), unnumbered.pixels(), 24 * 18 * 4), 0);
+}
+
+// Wide registers reach -2: bytes end at 0 and 255, floats do not.
+TEST(ShownRegister, BytesStopWhereWideRegistersGoOn) {
+    using namespace combine;
+    ProgramBuilder p;
+    p.stage()
+        .rgb()
+        .ab(mul(expand(Register::col0), one()), Register::spare0)
+        .scale(Scale::two)
+        .wide();
+    auto material = std::make_shared<Material>();
+    material->program.emplace();
+    material->program->combiners = p.build();
+    RawVertices quad{Space::window, Topology::quads, {}};
+    for (const glm::vec2& at : {glm::vec2(0, 0), {4, 0}, {4, 4}, {0, 4}}) {
+        RawVertex v;
+        v.position = {at.x, at.y, 0.5F, 1.0F};
+        v.color0 = {0.125F, 0.9375F, 0.5F, 1.0F};  // 2 (2 x - 1): -1.5, 1.75, 0
+        quad.vertices.push_back(v);
+    }
+    Scene scene;
+    scene.width = scene.height = 4;
+    scene.objects.push_back({quad, material, glm::mat4(1.0F), {}});
+    for (const IsaInfo& isa : instruction_sets()) {
+        if (!isa.available) continue;
+        Renderer renderer({.threads = 1, .isa = std::string(isa.name)});
+        Framebuffer floats(4, 4, PixelFormat::rgba32f), bytes(4, 4);
+        renderer.render(scene, floats, ShownRegister{Register::spare0});
+        renderer.render(scene, bytes, ShownRegister{Register::spare0});
+        EXPECT_EQ(pixel<float>(floats, 1, 1), (std::array<float, 4>{-1.5F, 1.75F, 0.0F, 1.0F}));
+        EXPECT_EQ(pixel<std::uint8_t>(bytes, 1, 1), (std::array<std::uint8_t, 4>{0, 255, 128, 255}))
+            << isa.name;
+    }
+}
+
+// How a byte codes a register does not depend on how the machine rounds.
+TEST(ShownRegister, CodesAreTheSameOnEveryMachine) {
+    Machine machine = machine_profile("nv2a");
+    machine.product_rounding = ProductRounding::shift8;
+    machine.halving = Halving::down;
+    for (const Register reg : {Register::tex0, Register::spare1}) {
+        const Scene scene = ball_scene(machine);
+        Framebuffer floats(24, 18, PixelFormat::rgba32f), bytes(24, 18);
+        Renderer renderer;
+        renderer.render(scene, floats, ShownRegister{reg, 1});
+        renderer.render(scene, bytes, ShownRegister{reg, 1});
+        const auto real = pixel<float>(floats, 12, 9);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto code = static_cast<int>(std::lround(real[c] * 255.0F));
+            EXPECT_EQ(int{pixel<std::uint8_t>(bytes, 12, 9)[c]}, coded_byte(code, 255)) << c;
+        }
+    }
 }
 
 TEST(ShownRegister, IsForOneCallOnly) {

@@ -8,6 +8,7 @@
 #include <burnish/error.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
+#include <cfenv>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -270,6 +271,66 @@ TEST(Trace, BarycentricsAreThoseOfPerspective) {
     EXPECT_NEAR(f.interpolants[0].numbers[0].error(), 0.0, 1e-7);
 }
 
+// Setup turns a triangle that winds the other way; the trace names corners as they were submitted.
+TEST(Trace, WeightsBelongToTheirCornersHoweverTheyWind) {
+    Scene scene;
+    scene.width = scene.height = 32;
+    const glm::vec2 at[3] = {{0.0F, 0.0F}, {0.0F, 18.0F}, {34.0F, 0.0F}};
+    for (const bool turned : {false, true}) {
+        RawVertices triangle{Space::window, Topology::triangles, {}};
+        const std::size_t order[3] = {0, turned ? 2U : 1U, turned ? 1U : 2U};
+        for (const std::size_t i : order)
+            triangle.vertices.push_back(window_vertex(at[i].x, at[i].y, 1.0F, {0, 0}));
+        scene.objects = {{triangle, vertex_color(), glm::mat4(1.0F), {}}};
+        const TracedFragment f = fragment_at(scene, 8, 2);
+        EXPECT_EQ(f.vertices, (std::array<std::uint32_t, 3>{0, 1, 2}));
+        double x = 0.0, y = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            x += f.barycentrics[i] * static_cast<double>(triangle.vertices[i].position.x);
+            y += f.barycentrics[i] * static_cast<double>(triangle.vertices[i].position.y);
+        }
+        EXPECT_NEAR(x, 8.5, 1e-12);
+        EXPECT_NEAR(y, 2.5, 1e-12);
+    }
+}
+
+// q = 2 everywhere: coordinates are halved after interpolation, in both arithmetics.
+TEST(Trace, CoordinatesAreDividedByQ) {
+    Scene scene = quad_scene(machine_profile("nv2a"));
+    for (RawVertex& v : std::get<RawVertices>(scene.objects[0].geometry).vertices)
+        v.uv[0] = {2.0F * v.uv[0].s, 2.0F * v.uv[0].t, 0.0F, 2.0F};
+    const TracedFragment f = fragment_at(scene, 2, 5);
+    const TracedFetch& fetch = f.fetches.at(0);
+    EXPECT_EQ(fetch.u.value, 2.5 / 8);
+    EXPECT_EQ(fetch.v.value, 5.5 / 8);
+    EXPECT_NEAR(fetch.u.exact, 2.5 / 8, 1e-14);
+    EXPECT_NEAR(fetch.v.exact, 5.5 / 8, 1e-14);
+    EXPECT_EQ(fetch.codes[0], 73);
+    EXPECT_NEAR(fetch.color[0].exact, 73.125 / 255, 1e-12);
+    const TracedInterpolant& uv = f.interpolants.back();
+    EXPECT_EQ(uv.name + "." + uv.components, "uv0.stq");
+    EXPECT_NEAR(uv.numbers[2].exact, 2.0, 1e-14);
+}
+
+TEST(Trace, DoesNotDependOnTheCallersRounding) {
+    const Scene scene = quad_scene(machine_profile("ideal"));
+    const TracedFragment plain = fragment_at(scene, 6, 3);
+    std::fesetround(FE_UPWARD);
+    const TracedFragment upward = fragment_at(scene, 6, 3);
+    std::fesetround(FE_TONEAREST);
+    ASSERT_EQ(plain.stages.size(), upward.stages.size());
+    for (std::size_t s = 0; s < plain.stages.size(); ++s) {
+        for (std::size_t r = 0; r < plain.stages[s].registers.size(); ++r) {
+            for (std::size_t c = 0; c < 4; ++c) {
+                EXPECT_EQ(plain.stages[s].registers[r].color[c].exact,
+                          upward.stages[s].registers[r].color[c].exact);
+            }
+        }
+    }
+    EXPECT_EQ(plain.codes, upward.codes);
+    EXPECT_EQ(plain.barycentrics, upward.barycentrics);
+}
+
 // A constant of a stage is marked where it begins and where it ends.
 TEST(Trace, ConstantsOfAStageAreMarked) {
     Scene scene = quad_scene(machine_profile("nv2a"));
@@ -299,6 +360,21 @@ TEST(Trace, ShowsResultsThatNothingReads) {
     // (73, 100, 255) * (26, 0, 26) / 255
     EXPECT_EQ(row(f.stages[1], Register::spare1).codes, (Four{7, 0, 26, 0}));
     EXPECT_EQ(f.codes, (Four{0, 0, 0, 0}));
+}
+
+// spare0 = (0, -50, 254) as above, and its blue goes to the alpha that the quad's program wrote.
+TEST(Trace, BlueThatGoesToAlphaIsMarked) {
+    Scene scene = quad_scene(machine_profile("nv2a"));
+    auto material = std::make_shared<Material>(*scene.objects[0].material);
+    GeneralStage& stage = material->program->combiners.stages[0];
+    stage.alpha = {};
+    stage.rgb.ab_blue_to_alpha = true;
+    scene.objects[0].material = material;
+    const TracedFragment f = fragment_at(scene, 2, 5);
+    const TracedRegister& spare0 = row(f.stages[1], Register::spare0);
+    EXPECT_EQ(spare0.codes, (Four{0, -50, 254, 254}));
+    EXPECT_EQ(spare0.changed, (std::array<bool, 4>{true, true, true, true}));
+    EXPECT_NEAR(spare0.color[3].exact, 1.0, 1e-12);
 }
 
 TEST(Trace, Background) {

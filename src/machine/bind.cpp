@@ -413,8 +413,10 @@ class Binder {
         ctx.cd = op.cd;
         ctx.third = op.third;
         ctx.scale = static_cast<OutputScale>(op.source->scale);
-        ctx.rounding = rounding();
-        ctx.halve_down = m_machine.halving == Halving::down ? 1 : 0;
+        // The code of a shown register is no work of the machine: it is the same on all of them.
+        const bool coding = op.stage >= static_cast<int>(m_program.stages.size());
+        ctx.rounding = coding ? Rounding::nearest : rounding();
+        ctx.halve_down = !coding && m_machine.halving == Halving::down ? 1 : 0;
         ctx.mux_lsb = m_program.mux_bit == MuxBit::lsb ? 1 : 0;
         ctx.bias_minus_half = op.source->bias_minus_half ? 1 : 0;
         ctx.wide = op.source->wide ? 1 : 0;

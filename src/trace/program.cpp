@@ -58,6 +58,9 @@ class StageWriter {
         };
         mark(stage.rgb, 0, 2);
         mark(stage.alpha, 3, 3);
+        const auto mark_alpha = [&](Register r) { m_written[r][3] = m_filled[r][3] = true; };
+        if (stage.rgb.ab_blue_to_alpha) mark_alpha(stage.rgb.ab_out);
+        if (stage.rgb.cd_blue_to_alpha) mark_alpha(stage.rgb.cd_out);
     }
 
     /// The final combiner makes the sum and the product; what it reads is marked nowhere.

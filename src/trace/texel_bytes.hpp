@@ -10,7 +10,7 @@ namespace burnish {
 /// height(), where a texture keeps the right and the lower neighbours of its last texels.
 inline std::uint8_t texel_byte(const Texture& texture, int x, int y, int c) {
     const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(y) * texture.pitch() + 4 * x + c;
-    return static_cast<std::uint8_t>(texture.texels()[offset] + 128);
+    return texture.texels()[offset];
 }
 
 }  // namespace burnish

@@ -127,9 +127,12 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
     trace.machine = scene.machine;
     trace.one = code_of_one(scene.machine.numbers);
     trace.format = scene.format;
-    TracedFrame frame(scene);
-    if (const auto seen = frame.visible(x, y)) trace.fragment = frame.fragment(*seen, x, y);
-    trace.stored = stored_pixel(scene, trace.fragment);
+    // In the floating-point environment of the renderer's workers, whatever the caller's is.
+    WorkerPool(1).run([&](int) {
+        TracedFrame frame(scene);
+        if (const auto seen = frame.visible(x, y)) trace.fragment = frame.fragment(*seen, x, y);
+        trace.stored = stored_pixel(scene, trace.fragment);
+    });
     return trace;
 }
 
