@@ -58,8 +58,8 @@ std::shared_ptr<Material> quad_material() {
 RawVertex window_vertex(float x, float y, float w, glm::vec2 uv) {
     RawVertex v;
     v.position = {x, y, 0.25F, w};
-    v.color0 = {0.5F, 0.25F, 1.0F, 0.2F};
-    v.color1 = {0.1F, 0.0F, 0.1F, 1.0F};
+    v.color0 = {0.5F, 0.25F, 1.0F, 51.0F / 256};
+    v.color1 = {26.0F / 256, 0.0F, 26.0F / 256, 1.0F};
     v.uv[0] = {uv.x, uv.y, 0.0F, 1.0F};
     return v;
 }
@@ -201,13 +201,13 @@ TEST(Trace, EveryRegisterOfEveryStage) {
         EXPECT_EQ(r.filled, all);
     }
     expect_numbers(row(inputs, Register::col0).color, {128 / 255.0, 64 / 255.0, 1.0, 51 / 255.0},
-                   {0.5, 0.25, 1.0, 0.2});
+                   {0.5, 0.25, 1.0, 51.0 / 256});
 
     // 0 * 73, -128 * 100, 254 * 255 and 51 * 128 over 255: 0, -50.2, 254, 25.6.
     EXPECT_EQ(row(stage, Register::spare0).codes, (Four{0, -50, 254, 26}));
     EXPECT_EQ(row(stage, Register::spare0).changed, all);
     expect_numbers(row(stage, Register::spare0).color, {0.0, -50 / 255.0, 254 / 255.0, 26 / 255.0},
-                   {0.0, -0.5 * 100 / 255, 1.0, 0.2 * 128 / 255});
+                   {0.0, -0.5 * 100 / 255, 1.0, 51.0 / 256 * 128 / 255});
     for (const TracedRegister& r : stage.registers) {
         if (r.reg == Register::spare0) continue;
         EXPECT_EQ(r.codes, row(inputs, r.reg).codes) << register_name(r.reg);
@@ -226,13 +226,13 @@ TEST(Trace, FinalCombinerAndFrame) {
                                         "spare1", "color_sum", "final_product"}));
     EXPECT_EQ(row(last, Register::color_sum).codes, (Four{26, 0, 280, 0}));
     expect_numbers(row(last, Register::color_sum).color, {26 / 255.0, 0.0, 280 / 255.0, 0.0},
-                   {0.1, 0.0, 1.1, 0.0});
+                   {26.0 / 256, 0.0, 1.0 + 26.0 / 256, 0.0});
     EXPECT_EQ(row(last, Register::final_product).codes, (Four{37, 25, 255, 0}));
     expect_numbers(row(last, Register::final_product).color, {37 / 255.0, 25 / 255.0, 1.0, 0.0},
                    {0.5 * 73.125 / 255, 0.25 * 100 / 255, 1.0, 0.0});
     EXPECT_EQ(trace.fragment->codes, (Four{26, 0, 255, 26}));
     expect_numbers(trace.fragment->color, {26 / 255.0, 0.0, 1.0, 26 / 255.0},
-                   {0.1, 0.0, 1.0, 0.2 * 128 / 255});
+                   {26.0 / 256, 0.0, 1.0, 51.0 / 256 * 128 / 255});
     EXPECT_EQ(trace.one, 255);
     EXPECT_EQ(trace.machine.name, "nv2a");
     EXPECT_EQ(trace.stored, (std::array<double, 4>{26, 0, 255, 26}));

@@ -68,16 +68,16 @@ float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit)
     }
 }
 
-/// The byte that the NV2A makes of a colour: cut to 12 fraction bits, then to the nearest of 255
-/// steps, half up; as a number again.
-float to_byte(float x) {
-    return std::floor(std::floor(x * 4096.0F) * (255.0F / 4096.0F) + 0.5F) / 255.0F;
+/// A colour as the NV2A takes it: 0.1 and 0.3 become 25 and 76 of 255, a little below the half. The
+/// captures fit any cut from 12 to 22 fraction bits; the finest harms interpolation least.
+float cut_color(float x) {
+    return std::floor(x * 0x1p22F) * 0x1p-22F;
 }
 
 float value_of(const RawVertex& v, const Varying& varying, NumberModel numbers) {
     const auto clamped = [&](float x) {
         const float color = x > 0.0F ? std::min(x, 1.0F) : 0.0F;
-        return numbers == NumberModel::nine_bit ? to_byte(color) : color;
+        return numbers == NumberModel::nine_bit ? cut_color(color) : color;
     };
     switch (varying.source) {
         case Varying::Source::color0:

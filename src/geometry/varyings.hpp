@@ -44,7 +44,8 @@ struct LitColors {
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
                    const LightSpace& space, const LitColors& lit, WorkerPool& pool,
                    std::vector<float>& out);
-/// Colours are clamped to [0, 1]; on nine-bit machines they are bytes from the vertex on.
+/// Colours are clamped to [0, 1]; nine-bit machines drop what lies below
+/// 2^-22.
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
                   NumberModel numbers, std::vector<float>& out);
 
