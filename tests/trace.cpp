@@ -183,6 +183,10 @@ TEST(Trace, EveryRegisterOfEveryStage) {
     EXPECT_EQ(inputs.name, "inputs");
     EXPECT_EQ(stage.name, "stage 0");
     EXPECT_EQ(last.name, "final");
+    EXPECT_EQ(inputs.text, "");
+    EXPECT_NE(stage.text.find("spare0 = expand(col0) * tex0;\n"), std::string::npos) << stage.text;
+    EXPECT_NE(stage.text.find("alpha {\n"), std::string::npos) << stage.text;
+    EXPECT_NE(last.text.find("final_product = col0 * tex0;\n"), std::string::npos) << last.text;
     EXPECT_EQ(names(inputs), rows);
     EXPECT_EQ(names(stage), rows);
 

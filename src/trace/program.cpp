@@ -1,6 +1,7 @@
 #include "trace/program.hpp"
 
 #include <algorithm>
+#include <burnish/program_text.hpp>
 #include <string>
 
 namespace burnish {
@@ -35,8 +36,9 @@ class StageWriter {
     StageWriter(const CombinerProgram& program, double one, const Registers<bool>& filled)
         : m_one(one), m_named(named_registers(program)), m_filled(filled) {}
 
-    TracedStage stage(std::string name, const RegisterFile& codes, const RealRegisters& exact) {
-        TracedStage result{std::move(name), {}};
+    TracedStage stage(std::string name, std::string text, const RegisterFile& codes,
+                      const RealRegisters& exact) {
+        TracedStage result{std::move(name), std::move(text), {}};
         for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
             const auto reg = static_cast<Register>(r);
             if (m_named[reg][0]) result.registers.push_back(row(reg, codes, exact));
@@ -101,14 +103,16 @@ void trace_program(const ProgramMaterial& program, const Machine& machine,
     for (std::size_t c = 0; c < 4; ++c) out.color[c] = {out.codes[c] / one, color[c]};
 
     StageWriter writer(combiners, one, inputs.filled);
-    out.stages.push_back(writer.stage("inputs", codes.front(), exact.front()));
+    out.stages.push_back(writer.stage("inputs", "", codes.front(), exact.front()));
     for (std::size_t s = 0; s < combiners.stages.size(); ++s) {
-        writer.write(combiners.stages[s]);
-        out.stages.push_back(
-            writer.stage("stage " + std::to_string(s), codes[s + 1], exact[s + 1]));
+        const GeneralStage& stage = combiners.stages[s];
+        writer.write(stage);
+        out.stages.push_back(writer.stage("stage " + std::to_string(s), print_stage(stage),
+                                          codes[s + 1], exact[s + 1]));
     }
     writer.write_final();
-    out.stages.push_back(writer.stage("final", codes.back(), exact.back()));
+    out.stages.push_back(
+        writer.stage("final", print_final(combiners.final_combiner), codes.back(), exact.back()));
 }
 
 }  // namespace burnish
