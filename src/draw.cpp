@@ -201,7 +201,7 @@ void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
         draw.screen.resize(raw.vertices.size());
         draw.homogeneous.resize(raw.vertices.size());
         transform_raw(draw, frame, object, raw);
-        raw_varyings(raw.vertices, shading.varying_list, shading.varyings);
+        raw_varyings(raw.vertices, shading.varying_list, shading.program.numbers, shading.varyings);
     }
 }
 

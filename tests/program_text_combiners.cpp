@@ -1,3 +1,5 @@
+#include <burnish/error.hpp>
+
 #include "program_text.hpp"
 
 /// What combiner programs mean: defaults, mappings, the forms of each statement.
@@ -31,7 +33,7 @@ TEST(ProgramText, LocalConstantsBelongToTheirStage) {
     EXPECT_FALSE(program.stages[0].const0) << "the global one";
     EXPECT_FALSE(program.stages[1].const1);
     EXPECT_NO_THROW(program.validate(machine_profile("nv2a")));
-    EXPECT_THROW(program.validate(machine_profile("geforce256")), std::exception);
+    EXPECT_THROW(program.validate(machine_profile("geforce256")), Error);
 }
 
 TEST(ProgramText, ConstantsKeepEveryBitOfAFloat) {
@@ -168,6 +170,13 @@ TEST(ProgramText, EightStages) {
     EXPECT_EQ(combiners(text).stages.size(), 8U);
     expect_combiner_error(text + "@{ rgb { spare0 = spare0; } } { rgb { spare0 = spare0; } }",
                           "general stage number 9, !!RC1.0 has at most 8");
+}
+
+TEST(ProgramText, TheGeForce256HasTwoStages) {
+    const std::string stage = "{ rgb { spare0 = spare0; } }";
+    const Machine machine = machine_profile("geforce256");
+    EXPECT_NO_THROW(combiners("!!RC1.0" + stage + stage).validate(machine));
+    EXPECT_THROW(combiners("!!RC1.0" + stage + stage + stage).validate(machine), Error);
 }
 
 TEST(ProgramTextFinal, MissingOutputsAreZero) {

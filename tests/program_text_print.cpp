@@ -225,11 +225,28 @@ TEST(ProgramTextPrint, NumbersHaveNoExponent) {
 }
 
 TEST(ProgramTextPrint, WhatNoTextCanSay) {
+    const auto after = [](const std::function<void(CombinerProgram&)>& change) {
+        CombinerProgram program;
+        program.stages.push_back(idle_stage());
+        change(program);
+        return refusal([&] { print_combiners(program); });
+    };
+    const std::string end = ", which no text can say: it belongs to the material";
+    EXPECT_EQ(after([](auto&) {}), "");
+    EXPECT_EQ(after([](auto& p) { p.fog = glm::vec4(0.5F); }), "fog has a colour" + end);
+    EXPECT_EQ(after([](auto& p) { p.mux_bit = MuxBit::lsb; }),
+              "mux tests the least significant bit" + end);
+    for (bool FinalCombiner::*flag :
+         {&FinalCombiner::complement_spare0, &FinalCombiner::complement_secondary})
+        EXPECT_EQ(after([flag](auto& p) { p.final_combiner.*flag = true; }),
+                  "final combiner: an operand of the colour sum is complemented" + end);
+    for (bool Portion::*flag : {&Portion::ab_blue_to_alpha, &Portion::cd_blue_to_alpha})
+        EXPECT_EQ(after([flag](auto& p) { p.stages[0].rgb.*flag = true; }),
+                  "stage 0, rgb: blue goes to alpha" + end);
+}
+
+TEST(ProgramTextPrint, WhatNoMachineCanRun) {
     CombinerProgram program;
-    program.fog = glm::vec4(0.5F);
-    EXPECT_EQ(refusal([&] { print_combiners(program); }),
-              "fog has a colour, expected none in a program as text: it belongs to the material");
-    program = {};
     program.stages.resize(17, idle_stage());
     EXPECT_EQ(refusal([&] { print_combiners(program); }),
               "17 general stages, machine 'ideal' has 16");

@@ -206,17 +206,17 @@ TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string object = "[[objects]]\nshape = \"cube\"\n";
     const std::vector<std::string> texts{"[machine]\nprofile = \"double\"\n",
                                          "[machine]\nfilter_order = \"after\"\n",
-                                         "[machine]\nproduct_rounding = \"trunc\"\n",
                                          "[machine]\nhalf_vector = \"cube:64\"\n",
                                          texture + "mipmaps = \"box\"\n",
                                          texture + "format = \"hilo16\"\n",
                                          texture + "target = \"cube\"\n",
                                          texture + "lod_bias = 1.0\n",
                                          material + "alpha_test = \"greater\"\n",
-                                         material + "combiners = \"a.rc\"\n",
                                          material + "texture_shader = \"a.ts\"\n",
                                          material + "normal_y = \"down\"\n",
-                                         material + "[materials.hardware]\n",
+                                         material +
+                                             "units = []\n[materials.hardware]\n"
+                                             "cull_fragment_bits = \"0101\"\n",
                                          object + "blend = \"alpha\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
@@ -382,7 +382,8 @@ TEST_F(SceneFiles, MaterialErrors) {
     EXPECT_SAYS(bad(head + "units = [\"tt\"]\n"), "did you mean 't'?");
     EXPECT_SAYS(bad(head + "units = [\"t\"]\nmodel = \"abp_modified\"\n"),
                 "both 'units' and 'model'");
-    EXPECT_SAYS(bad(head + "[materials.inputs]\ncol0_rgb = \"vertex\"\n"), "without 'units'");
+    EXPECT_SAYS(bad(head + "[materials.inputs]\ncol0_rgb = \"vertex\"\n"),
+                "without 'units' or 'combiners'");
     EXPECT_SAYS(bad(head + "units = []\n[materials.inputs]\ncol0_rgb = \"half_tangnt\"\n"),
                 "did you mean 'half_tangent'?");
 }

@@ -379,6 +379,7 @@ TEST(Trace, BlueThatGoesToAlphaIsMarked) {
     EXPECT_EQ(spare0.codes, (Four{0, -50, 254, 254}));
     EXPECT_EQ(spare0.changed, (std::array<bool, 4>{true, true, true, true}));
     EXPECT_NEAR(spare0.color[3].exact, 1.0, 1e-12);
+    EXPECT_NE(f.stages[1].text.find("// the blue of AB goes to alpha"), std::string::npos);
 }
 
 TEST(Trace, Background) {

@@ -2,36 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 #include <filesystem>
-#include <fstream>
 
 #include "app/verbs.hpp"
+#include "core/read_text.hpp"
 
 namespace burnish::app {
 namespace {
-
-/// Programs are a few KB; this keeps a wrong file name from filling the memory.
-constexpr std::size_t kLargestText = 16 << 20;
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream)
-        throw Error(ErrorCode::io, fmt::format("{}: cannot be opened for reading", path.string()));
-    std::string text;
-    std::array<char, 1 << 16> chunk;
-    do {
-        stream.read(chunk.data(), chunk.size());
-        text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
-    } while (stream && text.size() <= kLargestText);
-    if (stream.bad()) throw Error(ErrorCode::io, fmt::format("{}: cannot be read", path.string()));
-    if (text.size() > kLargestText)
-        throw Error(ErrorCode::limit, fmt::format("{}: more than {} MB, expected a program",
-                                                  path.string(), kLargestText >> 20));
-    return text;
-}
 
 void add_lines(std::vector<std::string>& lines, const std::filesystem::path& path,
                const std::vector<TextError>& errors) {

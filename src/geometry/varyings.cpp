@@ -68,8 +68,17 @@ float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit)
     }
 }
 
-float value_of(const RawVertex& v, const Varying& varying) {
-    const auto clamped = [](float x) { return x > 0.0F ? std::min(x, 1.0F) : 0.0F; };
+/// The byte that the NV2A makes of a colour: cut to 12 fraction bits, then to the nearest of 255
+/// steps, half up; as a number again.
+float to_byte(float x) {
+    return std::floor(std::floor(x * 4096.0F) * (255.0F / 4096.0F) + 0.5F) / 255.0F;
+}
+
+float value_of(const RawVertex& v, const Varying& varying, NumberModel numbers) {
+    const auto clamped = [&](float x) {
+        const float color = x > 0.0F ? std::min(x, 1.0F) : 0.0F;
+        return numbers == NumberModel::nine_bit ? to_byte(color) : color;
+    };
     switch (varying.source) {
         case Varying::Source::color0:
             return clamped(v.color0[varying.index]);
@@ -108,11 +117,11 @@ void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varyin
 }
 
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
-                  std::vector<float>& out) {
+                  NumberModel numbers, std::vector<float>& out) {
     out.clear();
     out.reserve(vertices.size() * list.size());
     for (const RawVertex& v : vertices) {
-        for (const Varying& varying : list) out.push_back(value_of(v, varying));
+        for (const Varying& varying : list) out.push_back(value_of(v, varying, numbers));
     }
 }
 

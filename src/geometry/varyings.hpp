@@ -44,8 +44,9 @@ struct LitColors {
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
                    const LightSpace& space, const LitColors& lit, WorkerPool& pool,
                    std::vector<float>& out);
+/// Colours are clamped to [0, 1]; on nine-bit machines they are bytes from the vertex on.
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
-                  std::vector<float>& out);
+                  NumberModel numbers, std::vector<float>& out);
 
 /// bitangent = w * cross(normal, tangent.xyz)
 glm::vec3 bitangent(const VertexFrame& v);

@@ -23,6 +23,16 @@ constexpr std::array<std::pair<std::string_view, NumberModel>, 2> kNumbers{
     {{"nine_bit", NumberModel::nine_bit}, {"wide", NumberModel::wide}}};
 constexpr std::array<std::pair<std::string_view, HalfVector>, 2> kHalfVectors{
     {{"vertex", HalfVector::vertex}, {"pixel", HalfVector::pixel}}};
+constexpr std::array<std::pair<std::string_view, ProductRounding>, 3> kProductRoundings{
+    {{"nearest", ProductRounding::nearest},
+     {"truncate", ProductRounding::truncate},
+     {"shift8", ProductRounding::shift8}}};
+constexpr std::array<std::pair<std::string_view, ExpandRule>, 2> kExpandRules{
+    {{"hardware", ExpandRule::hardware}, {"ideal", ExpandRule::ideal}}};
+constexpr std::array<std::pair<std::string_view, Halving>, 2> kHalvings{
+    {{"half_up", Halving::half_up}, {"down", Halving::down}}};
+constexpr std::array<std::pair<std::string_view, LerpRounding>, 2> kLerpRoundings{
+    {{"once", LerpRounding::once}, {"each", LerpRounding::each}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> kSnaps{
     {{"nearest", false}, {"floor", true}}};
 
@@ -46,13 +56,12 @@ Machine read_profile(const Section& section) {
 }
 
 void read_machine(const toml::table& table, Scene& scene) {
-    const Section section(
-        table, "[machine]",
-        {"profile", "filter_order", "texture_units", "general_stages", "stage_constants", "numbers",
-         "product_rounding", "expand", "subpixel_bits", "snap", "half_vector"});
+    const Section section(table, "[machine]",
+                          {"profile", "filter_order", "texture_units", "general_stages",
+                           "stage_constants", "numbers", "product_rounding", "expand", "halving",
+                           "lerp_rounding", "subpixel_bits", "snap", "half_vector"});
     Machine machine = read_profile(section);
     section.accept_only("filter_order", "before");
-    section.refuse({"product_rounding", "expand"});
     if (section.text("half_vector").value_or("").starts_with("cube:"))
         section.refuse({"half_vector"});
     machine.texture_units = section.integer("texture_units", 1, 16).value_or(machine.texture_units);
@@ -60,6 +69,13 @@ void read_machine(const toml::table& table, Scene& scene) {
         section.integer("general_stages", 0, 16).value_or(machine.general_stages);
     machine.stage_constants = section.boolean("stage_constants").value_or(machine.stage_constants);
     machine.numbers = section.choice<NumberModel>("numbers", kNumbers).value_or(machine.numbers);
+    machine.product_rounding =
+        section.choice<ProductRounding>("product_rounding", kProductRoundings)
+            .value_or(machine.product_rounding);
+    machine.expand = section.choice<ExpandRule>("expand", kExpandRules).value_or(machine.expand);
+    machine.halving = section.choice<Halving>("halving", kHalvings).value_or(machine.halving);
+    machine.lerp_rounding = section.choice<LerpRounding>("lerp_rounding", kLerpRoundings)
+                                .value_or(machine.lerp_rounding);
     machine.half_vector =
         section.choice<HalfVector>("half_vector", kHalfVectors).value_or(machine.half_vector);
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);
@@ -126,7 +142,7 @@ LoadedScene interpret(const toml::table& table, const std::filesystem::path& dir
         scene.lights.push_back(read_light(*light));
     scene.ambient = root.vec3("ambient", kNotNegative).value_or(scene.ambient);
     const TextureTable textures = read_textures(root, directory);
-    const MaterialTable materials = read_materials(root, textures);
+    const MaterialTable materials = read_materials(root, textures, directory);
     scene.objects = read_objects(root, materials, directory, loaded.notes);
     return loaded;
 }

@@ -32,7 +32,13 @@ struct NamedMaterial {
 };
 using MaterialTable = std::map<std::string, NamedMaterial, std::less<>>;
 
-MaterialTable read_materials(const Section& root, const TextureTable& textures);
+/// Reads every [[materials]] table; files are relative to `directory`.
+MaterialTable read_materials(const Section& root, const TextureTable& textures,
+                             const std::filesystem::path& directory);
+
+/// The pipeline of a material with `units` or `combiners`; nothing if it has neither.
+std::optional<ProgramMaterial> read_program(const Section& section, const TextureTable& textures,
+                                            const std::filesystem::path& directory);
 
 /// The pipeline of materials that bring textures or vertex colours but no model: colour times the
 /// texel of unit 0, if it has a texture; alpha from the colour.

@@ -156,6 +156,24 @@ std::string print_rgb(const FinalCombiner& f) {
     return fmt::format("{} * {}{}", operand(f.a), operand(f.b), added);
 }
 
+/// What stands on a material beside its program as text.
+void require_sayable(const CombinerProgram& program) {
+    const auto fail = [](const std::string& what) {
+        throw Error(ErrorCode::bad_program,
+                    what + ", which no text can say: it belongs to the material");
+    };
+    if (program.fog != glm::vec4(0.0F)) fail("fog has a colour");
+    if (program.mux_bit != MuxBit::msb) fail("mux tests the least significant bit");
+    const FinalCombiner& f = program.final_combiner;
+    if (f.complement_spare0 || f.complement_secondary)
+        fail("final combiner: an operand of the colour sum is complemented");
+    for (std::size_t i = 0; i < program.stages.size(); ++i) {
+        const Portion& rgb = program.stages[i].rgb;
+        if (rgb.ab_blue_to_alpha || rgb.cd_blue_to_alpha)
+            fail(fmt::format("stage {}, rgb: blue goes to alpha", i));
+    }
+}
+
 }  // namespace
 
 /// A stage needs a portion, an idle one too.
@@ -189,11 +207,8 @@ std::string print_fetch(const StageFetch& fetch) {
 }
 
 std::string print_combiners(const CombinerProgram& program) {
+    require_sayable(program);
     program.validate(Machine());
-    if (program.fog != glm::vec4(0.0F))
-        throw Error(ErrorCode::bad_program,
-                    "fog has a colour, expected none in a program as text: "
-                    "it belongs to the material");
     std::string text = std::string((needs_extension(program) ? kBrn10 : kRc10).header) + "\n";
     if (program.const0 != glm::vec4(0.0F)) text += print_constant("const0", program.const0);
     if (program.const1 != glm::vec4(0.0F)) text += print_constant("const1", program.const1);

@@ -30,6 +30,27 @@ Registers<bool> named_registers(const CombinerProgram& program) {
     return named;
 }
 
+/// What a stage does, with the switches that only the hardware had as comments.
+std::string stage_text(const CombinerProgram& program, const GeneralStage& stage) {
+    std::string text = print_stage(stage);
+    if (stage.rgb.ab_blue_to_alpha) text += "// the blue of AB goes to alpha\n";
+    if (stage.rgb.cd_blue_to_alpha) text += "// the blue of CD goes to alpha\n";
+    const auto muxes = [](const Portion& p) {
+        return p.third == Third::mux && p.third_out != Register::discard;
+    };
+    if (program.mux_bit == MuxBit::lsb && (muxes(stage.rgb) || muxes(stage.alpha))) {
+        text += "// the mux tests the least significant bit\n";
+    }
+    return text;
+}
+
+std::string final_text(const FinalCombiner& final) {
+    std::string text = print_final(final);
+    if (final.complement_spare0) text += "// color_sum takes 1 - spare0\n";
+    if (final.complement_secondary) text += "// color_sum takes 1 - col1\n";
+    return text;
+}
+
 /// Turns what the interpreters noted into rows.
 class StageWriter {
   public:
@@ -107,12 +128,13 @@ void trace_program(const ProgramMaterial& program, const Machine& machine,
     for (std::size_t s = 0; s < combiners.stages.size(); ++s) {
         const GeneralStage& stage = combiners.stages[s];
         writer.write(stage);
-        out.stages.push_back(writer.stage("stage " + std::to_string(s), print_stage(stage),
-                                          codes[s + 1], exact[s + 1]));
+        out.stages.push_back(writer.stage("stage " + std::to_string(s),
+                                          stage_text(combiners, stage), codes[s + 1],
+                                          exact[s + 1]));
     }
     writer.write_final();
     out.stages.push_back(
-        writer.stage("final", print_final(combiners.final_combiner), codes.back(), exact.back()));
+        writer.stage("final", final_text(combiners.final_combiner), codes.back(), exact.back()));
 }
 
 }  // namespace burnish

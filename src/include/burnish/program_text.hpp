@@ -45,7 +45,7 @@ Parsed<TextureShader> parse_texture_shader(std::string_view text);
 /// of zero, and constants beyond [0, 1], which are clamped; a program without general stages comes
 /// back with one that is idle. Numbers in it have as many digits as a float needs.
 /// Throws Error{bad_program} for a program that no machine can run or no text can say: a fog colour
-/// other than 0 belongs to the material.
+/// and switches that OpenGL never had (mux_bit, blue to alpha, complements) belong to the material.
 std::string print_combiners(const CombinerProgram& program);
 
 /// Canonical `!!TS1.0` text with four statements. Throws Error{bad_program} for what no text can
@@ -53,10 +53,11 @@ std::string print_combiners(const CombinerProgram& program);
 /// that the operation has no use for and that are not at their initial value.
 std::string print_texture_shader(const TextureShader& shader);
 
-/// The braces of one general stage, with its constants but without fetches before it.
+/// The braces of one general stage, with its constants but without fetches before it; switches that
+/// no text can say are left out.
 std::string print_stage(const GeneralStage& stage);
 
-/// The statements of the final combiner.
+/// The statements of the final combiner, likewise.
 std::string print_final(const FinalCombiner& final);
 
 /// One input as programs write it, with its component: "expand(tex0.rgb)", "-spare0.a", "one".

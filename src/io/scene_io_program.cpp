@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <burnish/error.hpp>
+#include <burnish/program_text.hpp>
+#include <cmath>
+#include <utility>
+
+#include "core/nearest.hpp"
+#include "core/read_text.hpp"
+#include "io/scene_io_parts.hpp"
+
+namespace burnish {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ColorInput>, 5> kRgbInputs{
+    {{"vertex", ColorInput::vertex},
+     {"half_tangent", ColorInput::half_tangent},
+     {"light_tangent", ColorInput::light_tangent},
+     {"view_tangent", ColorInput::view_tangent},
+     {"n_dot_l", ColorInput::n_dot_l}}};
+constexpr std::array<std::pair<std::string_view, ColorInput>, 2> kAlphaInputs{
+    {{"vertex", ColorInput::vertex}, {"n_dot_l", ColorInput::n_dot_l}}};
+constexpr std::array<std::pair<std::string_view, MuxBit>, 2> kMuxBits{
+    {{"msb", MuxBit::msb}, {"lsb", MuxBit::lsb}}};
+
+void read_inputs(const Section& material, ProgramMaterial& program) {
+    const toml::table* table = material.table("inputs");
+    if (table == nullptr) return;
+    const Section section(*table, "[materials.inputs]",
+                          {"col0_rgb", "col0_a", "col1_rgb", "col1_a", "uv0", "uv1", "uv2", "uv3"});
+    for (const std::string_view key : {"uv0", "uv1", "uv2", "uv3"}) section.accept_only(key, "uv");
+    for (const std::string_view key : {"col0_rgb", "col1_rgb"}) {
+        if (section.has(key) && section.text(key) == "normal") section.refuse({key});
+    }
+    program.col0_rgb =
+        section.choice<ColorInput>("col0_rgb", kRgbInputs).value_or(program.col0_rgb);
+    program.col0_a = section.choice<ColorInput>("col0_a", kAlphaInputs).value_or(program.col0_a);
+    program.col1_rgb =
+        section.choice<ColorInput>("col1_rgb", kRgbInputs).value_or(program.col1_rgb);
+    program.col1_a = section.choice<ColorInput>("col1_a", kAlphaInputs).value_or(program.col1_a);
+}
+
+std::vector<TexturePtr> read_units(const Section& section, const TextureTable& textures) {
+    constexpr std::size_t kMostUnits = 16;
+    const std::vector<std::string> names =
+        section.texts("units").value_or(std::vector<std::string>{});
+    if (names.size() > kMostUnits)
+        section.fail("units", fmt::format("'units' in {} has {} elements, expected at most {}",
+                                          section.label(), names.size(), kMostUnits));
+    std::vector<TexturePtr> units;
+    for (const std::string& name : names) {
+        const auto found = textures.find(name);
+        if (!name.empty() && found == textures.end())
+            section.fail("units", fmt::format("'units' in {} names the unknown texture '{}', {}",
+                                              section.label(), name,
+                                              expected_one_of(name, names_of(textures))));
+        units.push_back(name.empty() ? nullptr : found->second.texture);
+    }
+    return units;
+}
+
+/// The first error of a text, and how many more there are.
+[[noreturn]] void fail_text(const std::string& place, const std::vector<TextError>& errors) {
+    const TextError& first = errors.front();
+    const std::string more =
+        errors.size() > 1 ? fmt::format(" (and {} more)", errors.size() - 1) : std::string();
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}:{}: {}{}", place, first.column, first.message, more));
+}
+
+std::string read_file(const Section& section, const std::filesystem::path& path) {
+    try {
+        return read_text(path);
+    } catch (const Error& error) {
+        throw Error(error.code(), section.place("combiners") + ": " + error.what());
+    }
+}
+
+/// The program that a material names or holds; nothing if it does neither.
+std::optional<CombinerProgram> read_combiners(const Section& section,
+                                              const std::filesystem::path& directory) {
+    const auto file = section.text("combiners"), text = section.text("combiners_text");
+    if (file && text)
+        section.fail("combiners_text", fmt::format("{} has both 'combiners' and 'combiners_text', "
+                                                   "expected one",
+                                                   section.label()));
+    if (!file && !text) return std::nullopt;
+    const std::filesystem::path path = file ? directory / *file : std::filesystem::path();
+    const Parsed<CombinerProgram> parsed = parse_combiners(file ? read_file(section, path) : *text);
+    if (parsed.program) return parsed.program;
+    const std::size_t line = parsed.errors.front().line;
+    fail_text(file ? fmt::format("{}:{}", path.string(), line)
+                   : fmt::format("{}: combiners_text:{}", section.place("combiners_text"), line),
+              parsed.errors);
+}
+
+/// `key` as numbers in [0, 1], or `key`_bytes as codes.
+std::optional<glm::vec4> read_constant(const Section& section, const std::string& key) {
+    const std::string bytes_key = key + "_bytes";
+    const auto value = section.vec4(key, kUnit);
+    const auto bytes = section.vec4(bytes_key, {0.0, 255.0});
+    if (value && bytes)
+        section.fail(bytes_key, fmt::format("{} has both '{}' and '{}', expected one",
+                                            section.label(), key, bytes_key));
+    if (!bytes) return value;
+    for (int c = 0; c < 4; ++c) {
+        if ((*bytes)[c] != std::floor((*bytes)[c]))
+            section.fail(bytes_key, fmt::format("'{}' in {} has the element {}, expected whole "
+                                                "numbers 0 .. 255",
+                                                bytes_key, section.label(), (*bytes)[c]));
+    }
+    return *bytes / 255.0F;
+}
+
+void read_complements(const Section& section, FinalCombiner& final) {
+    for (const std::string& name :
+         section.texts("complement").value_or(std::vector<std::string>{})) {
+        if (name == "spare0") {
+            final.complement_spare0 = true;
+        } else if (name == "secondary") {
+            final.complement_secondary = true;
+        } else {
+            constexpr std::array<std::string_view, 2> kKnown{"spare0", "secondary"};
+            section.fail_unknown_word("complement", name, kKnown);
+        }
+    }
+}
+
+/// [[0, "ab"], [1, "cd"]]: stage and output.
+void read_blue_to_alpha(const Section& section, const toml::table& table,
+                        CombinerProgram& program) {
+    if (!section.has("blue_to_alpha")) return;
+    const auto fail = [&] {
+        section.fail("blue_to_alpha",
+                     fmt::format("'blue_to_alpha' in {}, expected pairs of a stage, 0 .. {}, and "
+                                 "\"ab\" or \"cd\"",
+                                 section.label(), program.stages.size() - 1));
+    };
+    const toml::array* pairs = table["blue_to_alpha"].as_array();
+    if (pairs == nullptr) fail();
+    for (const toml::node& node : *pairs) {
+        const toml::array* pair = node.as_array();
+        if (pair == nullptr || pair->size() != 2) fail();
+        const auto stage = (*pair)[0].value_exact<std::int64_t>();
+        const auto output = (*pair)[1].value_exact<std::string>();
+        if (!stage || !output || *stage < 0 ||
+            *stage >= static_cast<std::int64_t>(program.stages.size()) ||
+            (*output != "ab" && *output != "cd"))
+            fail();
+        Portion& rgb = program.stages[static_cast<std::size_t>(*stage)].rgb;
+        (*output == "ab" ? rgb.ab_blue_to_alpha : rgb.cd_blue_to_alpha) = true;
+    }
+}
+
+void read_hardware(const Section& material, CombinerProgram& program) {
+    const toml::table* table = material.table("hardware");
+    if (table == nullptr) return;
+    const Section section(*table, "[materials.hardware]",
+                          {"mux_bit", "complement", "blue_to_alpha", "cull_fragment_bits"});
+    section.refuse({"cull_fragment_bits"});
+    program.mux_bit = section.choice<MuxBit>("mux_bit", kMuxBits).value_or(program.mux_bit);
+    read_complements(section, program.final_combiner);
+    read_blue_to_alpha(section, *table, program);
+}
+
+}  // namespace
+
+ProgramMaterial vertex_color_program(std::vector<TexturePtr> units) {
+    using namespace combine;
+    const bool textured = !units.empty() && units[0] != nullptr;
+    ProgramBuilder builder;
+    const Input zero = raw(Register::zero);
+    builder.lerp(raw(Register::col0), textured ? raw(tex(0)) : one(), zero, zero);
+    builder.out_alpha(alpha(raw(Register::col0)));
+    ProgramMaterial program;
+    program.combiners = builder.build();
+    program.units = std::move(units);
+    return program;
+}
+
+std::optional<ProgramMaterial> read_program(const Section& section, const TextureTable& textures,
+                                            const std::filesystem::path& directory) {
+    std::optional<CombinerProgram> combiners = read_combiners(section, directory);
+    if (!combiners && !section.has("units")) {
+        for (const std::string_view key : {"inputs", "const0", "const1", "const0_bytes",
+                                           "const1_bytes", "fog", "clamp_color_sum", "hardware"}) {
+            if (section.has(key))
+                section.fail(key, fmt::format("'{}' in {} without 'units' or 'combiners'", key,
+                                              section.label()));
+        }
+        return std::nullopt;
+    }
+    ProgramMaterial program = vertex_color_program(read_units(section, textures));
+    if (combiners) program.combiners = std::move(*combiners);
+    CombinerProgram& p = program.combiners;
+    p.const0 = read_constant(section, "const0").value_or(p.const0);
+    p.const1 = read_constant(section, "const1").value_or(p.const1);
+    p.fog = section.vec4("fog", kUnit).value_or(p.fog);
+    p.final_combiner.clamp_color_sum =
+        section.boolean("clamp_color_sum").value_or(p.final_combiner.clamp_color_sum);
+    read_hardware(section, p);
+    read_inputs(section, program);
+    return program;
+}
+
+}  // namespace burnish
