@@ -183,6 +183,10 @@ TEST(Trace, EveryRegisterOfEveryStage) {
     EXPECT_EQ(inputs.name, "inputs");
     EXPECT_EQ(stage.name, "stage 0");
     EXPECT_EQ(last.name, "final");
+    EXPECT_EQ(inputs.text, "");
+    EXPECT_NE(stage.text.find("spare0 = expand(col0) * tex0;\n"), std::string::npos) << stage.text;
+    EXPECT_NE(stage.text.find("alpha {\n"), std::string::npos) << stage.text;
+    EXPECT_NE(last.text.find("final_product = col0 * tex0;\n"), std::string::npos) << last.text;
     EXPECT_EQ(names(inputs), rows);
     EXPECT_EQ(names(stage), rows);
 
@@ -375,6 +379,7 @@ TEST(Trace, BlueThatGoesToAlphaIsMarked) {
     EXPECT_EQ(spare0.codes, (Four{0, -50, 254, 254}));
     EXPECT_EQ(spare0.changed, (std::array<bool, 4>{true, true, true, true}));
     EXPECT_NEAR(spare0.color[3].exact, 1.0, 1e-12);
+    EXPECT_NE(f.stages[1].text.find("// the blue of AB goes to alpha"), std::string::npos);
 }
 
 TEST(Trace, Background) {

@@ -80,6 +80,7 @@ TEST_F(TraceCommand, JsonHasTheWholeRoad) {
     EXPECT_NEAR(col0["exact"][0].number, 0.5, 1e-7);
     EXPECT_NEAR(col0["error"][0].number, 0.5 / 255, 1e-7);
     EXPECT_EQ(f["stages"].list.back()["name"].text, "final");
+    EXPECT_NE(f["stages"].list.back()["text"].text.find("out.rgb = "), std::string::npos);
     EXPECT_EQ(numbers(f["codes"]), (std::vector<double>{128, 0, 0, 51}));
 }
 
@@ -92,8 +93,8 @@ TEST_F(TraceCommand, TextIsForAPerson) {
     EXPECT_SAYS(result.out, "triangle 1\n");
     EXPECT_SAYS(result.out, "\n  depth 0.5\n");
     EXPECT_SAYS(result.out, "\n  corner 1: vertex 2, weight 0.375000000\n");
-    EXPECT_SAYS(result.out, "\ninputs ");
-    EXPECT_SAYS(result.out, "\nfinal ");
+    EXPECT_SAYS(result.out, "\ninputs\n");
+    EXPECT_SAYS(result.out, "\nfinal\nout.rgb = ");
     EXPECT_SAYS(result.out,
                 "\n  col0             128      0      0     51  0.5020  0.0000  0.0000  0.2000");
     EXPECT_TRUE(result.out.ends_with("\nstored, rgba8: 128 0 0 51\n")) << result.out;

@@ -79,8 +79,8 @@ std::string register_json(const TracedRegister& r) {
 }
 
 std::string stage_json(const TracedStage& s) {
-    return fmt::format("{{\"name\": {}, \"registers\": {}}}", json_string(s.name),
-                       json_list(s.registers, register_json));
+    return fmt::format("{{\"name\": {}, \"text\": {}, \"registers\": {}}}", json_string(s.name),
+                       json_string(s.text), json_list(s.registers, register_json));
 }
 
 std::string fragment_json(const TracedFragment& f) {

@@ -46,7 +46,7 @@ class TableWriter {
     }
 
     std::string stage(const TracedStage& stage) const {
-        std::string text = heading(stage.name);
+        std::string text = stage.name + "\n" + stage.text + heading("");
         for (const TracedRegister& r : stage.registers) {
             const bool changed = r.changed[0] || r.changed[1] || r.changed[2] || r.changed[3];
             text += row(fmt::format("{} {}", changed ? '*' : ' ', register_name(r.reg)), r.codes,

@@ -127,17 +127,6 @@ std::string print_fetches(const std::vector<StageFetch>& fetches) {
     return text + "}\n";
 }
 
-/// A stage needs a portion, an idle one too.
-std::string print_stage(const GeneralStage& stage) {
-    std::string text = "{\n";
-    if (stage.const0) text += "    " + print_constant("const0", *stage.const0);
-    if (stage.const1) text += "    " + print_constant("const1", *stage.const1);
-    const bool idle = is_idle(stage.rgb) && is_idle(stage.alpha);
-    if (!is_idle(stage.rgb) || idle) text += print_portion(stage.rgb, Place::rgb);
-    if (!is_idle(stage.alpha)) text += print_portion(stage.alpha, Place::alpha);
-    return text + "}\n";
-}
-
 /// The stages that the text has to name: the parser adds the only one, and the one behind the last
 /// fetches, if they are idle.
 std::string print_stages(const std::vector<GeneralStage>& stages) {
@@ -167,16 +156,6 @@ std::string print_rgb(const FinalCombiner& f) {
     return fmt::format("{} * {}{}", operand(f.a), operand(f.b), added);
 }
 
-std::string print_final(const FinalCombiner& f) {
-    std::string text;
-    if (f.clamp_color_sum) text += "clamp_color_sum();\n";
-    if (reads_product(f) || !is_unused(f.e, Place::final_rgb) || !is_unused(f.f, Place::final_rgb))
-        text += fmt::format("final_product = {} * {};\n", print_operand(f.e, Place::final_rgb),
-                            print_operand(f.f, Place::final_rgb));
-    text += fmt::format("out.rgb = {};\n", print_rgb(f));
-    return text + fmt::format("out.a = {};\n", print_operand(f.g, Place::final_alpha));
-}
-
 /// What stands on a material beside its program as text.
 void require_sayable(const CombinerProgram& program) {
     const auto fail = [](const std::string& what) {
@@ -196,6 +175,27 @@ void require_sayable(const CombinerProgram& program) {
 }
 
 }  // namespace
+
+/// A stage needs a portion, an idle one too.
+std::string print_stage(const GeneralStage& stage) {
+    std::string text = "{\n";
+    if (stage.const0) text += "    " + print_constant("const0", *stage.const0);
+    if (stage.const1) text += "    " + print_constant("const1", *stage.const1);
+    const bool idle = is_idle(stage.rgb) && is_idle(stage.alpha);
+    if (!is_idle(stage.rgb) || idle) text += print_portion(stage.rgb, Place::rgb);
+    if (!is_idle(stage.alpha)) text += print_portion(stage.alpha, Place::alpha);
+    return text + "}\n";
+}
+
+std::string print_final(const FinalCombiner& f) {
+    std::string text;
+    if (f.clamp_color_sum) text += "clamp_color_sum();\n";
+    if (reads_product(f) || !is_unused(f.e, Place::final_rgb) || !is_unused(f.f, Place::final_rgb))
+        text += fmt::format("final_product = {} * {};\n", print_operand(f.e, Place::final_rgb),
+                            print_operand(f.f, Place::final_rgb));
+    text += fmt::format("out.rgb = {};\n", print_rgb(f));
+    return text + fmt::format("out.a = {};\n", print_operand(f.g, Place::final_alpha));
+}
 
 std::string print_fetch(const StageFetch& fetch) {
     std::string from;

@@ -1,6 +1,7 @@
 #include "trace/program.hpp"
 
 #include <algorithm>
+#include <burnish/program_text.hpp>
 #include <string>
 
 namespace burnish {
@@ -29,14 +30,36 @@ Registers<bool> named_registers(const CombinerProgram& program) {
     return named;
 }
 
+/// What a stage does, with the switches that only the hardware had as comments.
+std::string stage_text(const CombinerProgram& program, const GeneralStage& stage) {
+    std::string text = print_stage(stage);
+    if (stage.rgb.ab_blue_to_alpha) text += "// the blue of AB goes to alpha\n";
+    if (stage.rgb.cd_blue_to_alpha) text += "// the blue of CD goes to alpha\n";
+    const auto muxes = [](const Portion& p) {
+        return p.third == Third::mux && p.third_out != Register::discard;
+    };
+    if (program.mux_bit == MuxBit::lsb && (muxes(stage.rgb) || muxes(stage.alpha))) {
+        text += "// the mux tests the least significant bit\n";
+    }
+    return text;
+}
+
+std::string final_text(const FinalCombiner& final) {
+    std::string text = print_final(final);
+    if (final.complement_spare0) text += "// color_sum takes 1 - spare0\n";
+    if (final.complement_secondary) text += "// color_sum takes 1 - col1\n";
+    return text;
+}
+
 /// Turns what the interpreters noted into rows.
 class StageWriter {
   public:
     StageWriter(const CombinerProgram& program, double one, const Registers<bool>& filled)
         : m_one(one), m_named(named_registers(program)), m_filled(filled) {}
 
-    TracedStage stage(std::string name, const RegisterFile& codes, const RealRegisters& exact) {
-        TracedStage result{std::move(name), {}};
+    TracedStage stage(std::string name, std::string text, const RegisterFile& codes,
+                      const RealRegisters& exact) {
+        TracedStage result{std::move(name), std::move(text), {}};
         for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
             const auto reg = static_cast<Register>(r);
             if (m_named[reg][0]) result.registers.push_back(row(reg, codes, exact));
@@ -101,14 +124,17 @@ void trace_program(const ProgramMaterial& program, const Machine& machine,
     for (std::size_t c = 0; c < 4; ++c) out.color[c] = {out.codes[c] / one, color[c]};
 
     StageWriter writer(combiners, one, inputs.filled);
-    out.stages.push_back(writer.stage("inputs", codes.front(), exact.front()));
+    out.stages.push_back(writer.stage("inputs", "", codes.front(), exact.front()));
     for (std::size_t s = 0; s < combiners.stages.size(); ++s) {
-        writer.write(combiners.stages[s]);
-        out.stages.push_back(
-            writer.stage("stage " + std::to_string(s), codes[s + 1], exact[s + 1]));
+        const GeneralStage& stage = combiners.stages[s];
+        writer.write(stage);
+        out.stages.push_back(writer.stage("stage " + std::to_string(s),
+                                          stage_text(combiners, stage), codes[s + 1],
+                                          exact[s + 1]));
     }
     writer.write_final();
-    out.stages.push_back(writer.stage("final", codes.back(), exact.back()));
+    out.stages.push_back(
+        writer.stage("final", final_text(combiners.final_combiner), codes.back(), exact.back()));
 }
 
 }  // namespace burnish

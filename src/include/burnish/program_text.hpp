@@ -53,6 +53,13 @@ std::string print_combiners(const CombinerProgram& program);
 /// that the operation has no use for and that are not at their initial value.
 std::string print_texture_shader(const TextureShader& shader);
 
+/// The braces of one general stage, with its constants but without fetches before it; switches that
+/// no text can say are left out.
+std::string print_stage(const GeneralStage& stage);
+
+/// The statements of the final combiner, likewise.
+std::string print_final(const FinalCombiner& final);
+
 /// One input as programs write it, with its component: "expand(tex0.rgb)", "-spare0.a", "one".
 std::string print_input(const Input& input);
 

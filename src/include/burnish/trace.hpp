@@ -63,6 +63,7 @@ struct TracedRegister {
 /// Registers that the program names, and the constants, colours and spares.
 struct TracedStage {
     std::string name;  ///< "inputs", "stage 0", ..., "final"
+    std::string text;  ///< what it does, in the language of print_combiners; inputs: empty
     std::vector<TracedRegister> registers;
 };
 
