@@ -300,7 +300,7 @@ void add_texels() {
            1};
     add_packet_stage("address/clamp", &KernelTable::address, packet, ctx, addresses);
 
-    FetchCtx fetch{{}, {}, 1, kPitch};
+    FetchCtx fetch{{}, {}, {}, 1, kPitch};
     for (int k = 0; k < 3; ++k) {
         fetch.texels[k] = texels.data();
         fetch.plane[k] = 4 * k;

@@ -105,6 +105,8 @@ struct FilterNineBit {
         const I16 top = row(top_texels), bottom = row(bottom_texels);
         return top + mul_round(bottom - top, down);
     }
+    static I16 unsigned_code(I16 v) { return v; }
+    static I16 signed_code(I16 v) { return (v - I16(128)) << 1; }
     I16 across, down;
 };
 
@@ -125,9 +127,13 @@ struct FilterWide {
         const I16 top = row(top_texels), bottom = row(bottom_texels);
         const I32 lo = mul_add_pairs(zip_lo16(top, bottom), down) + I32(128);
         const I32 hi = mul_add_pairs(zip_hi16(top, bottom), down) + I32(128);
-        const I16 v = narrow(lo >> 8, hi >> 8) ^ I16(static_cast<std::int16_t>(0x8000));
+        return narrow(lo >> 8, hi >> 8);  // v - 32768
+    }
+    static I16 unsigned_code(I16 biased) {
+        const I16 v = biased ^ I16(static_cast<std::int16_t>(0x8000));
         return average(shift_right_logical(v + shift_right_logical(v, 8), 1), I16(0));
     }
+    static I16 signed_code(I16 biased) { return (biased + I16(1)) >> 1; }
     I16 across, down;
 };
 
@@ -141,9 +147,11 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
     const int textures = ctx.count;
     const std::uint8_t* texels[FetchCtx::kMaxTextures];
     std::int16_t* planes[FetchCtx::kMaxTextures];
+    bool is_signed[FetchCtx::kMaxTextures];
     for (int t = 0; t < textures; ++t) {
         texels[t] = ctx.texels[t];
         planes[t] = packet.planes + ctx.plane[t] * kPacketSize;
+        is_signed[t] = ctx.is_signed[t] != 0;
     }
     const std::int32_t* const texel = packet.texel;
     const std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
@@ -168,11 +176,20 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
             const I16 v0 = filtered(0), v1 = filtered(1), v2 = filtered(2), v3 = filtered(3);
             const I16 rg01 = zip_lo32(v0, v1), rg23 = zip_lo32(v2, v3);
             const I16 ba01 = zip_hi32(v0, v1), ba23 = zip_hi32(v2, v3);
-            std::int16_t* const out = planes[t] + i;
-            store(out, zip_lo64(rg01, rg23));
-            store(out + kPacketSize, zip_hi64(rg01, rg23));
-            store(out + 2 * kPacketSize, zip_lo64(ba01, ba23));
-            store(out + 3 * kPacketSize, zip_hi64(ba01, ba23));
+            const I16 r = zip_lo64(rg01, rg23), g = zip_hi64(rg01, rg23);
+            const I16 b = zip_lo64(ba01, ba23), a = zip_hi64(ba01, ba23);
+            const auto put = [&](auto code) {
+                std::int16_t* const out = planes[t] + i;
+                store(out, code(r));
+                store(out + kPacketSize, code(g));
+                store(out + 2 * kPacketSize, code(b));
+                store(out + 3 * kPacketSize, code(a));
+            };
+            if (is_signed[t]) {
+                put([](I16 v) { return Filter::signed_code(v); });
+            } else {
+                put([](I16 v) { return Filter::unsigned_code(v); });
+            }
         }
     }
 }

@@ -71,16 +71,17 @@ struct AddressCtx {
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
 /// 4 bytes apart, the rows one pitch. Texture k gives four planes r, g, b, a from plane[k] on.
-/// A texel t is four bytes r, g, b, a.
-/// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows, then
-///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
+/// A texel t is four bytes r, g, b, a; those of a signed texture are value + 128.
+/// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows,
+///   v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8; code = v, signed 2 * (v - 128).
 /// wide: h = (256 - wx) * t_left + wx * t_right,
-///   v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8 (0 .. 65280), x = v + (v >> 8),
-///   code = (x + 2) >> 2.
+///   v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8 (0 .. 65280);
+///   code = (v + (v >> 8) + 2) >> 2, signed (v - 32768 + 1) >> 1.
 struct FetchCtx {
     static constexpr int kMaxTextures = 4;
     const std::uint8_t* texels[kMaxTextures];
     int plane[kMaxTextures];
+    std::uint8_t is_signed[kMaxTextures];
     int count;           ///< 1 .. kMaxTextures
     std::int32_t pitch;  ///< bytes
 };

@@ -321,6 +321,7 @@ struct NineBit {
         const Int bottom = shift_half_up((256 - wx) * bottom_left + wx * bottom_right, 8);
         return shift_half_up((256 - wy) * top + wy * bottom, 8);
     }
+    static Int texel_code(Int v, bool is_signed) { return is_signed ? 2 * (v - 128) : v; }
     static Int to_8_bits(Int v) { return v; }
     static Int to_16_bits(Int v) { return 257 * v; }
 };
@@ -345,8 +346,10 @@ struct Wide {
                       Int wy) {
         const Int top = (256 - wx) * top_left + wx * top_right;
         const Int bottom = (256 - wx) * bottom_left + wx * bottom_right;
-        const Int v = shift_half_up((256 - wy) * top + wy * bottom, 8);
-        return (v + (v >> 8) + 2) >> 2;
+        return shift_half_up((256 - wy) * top + wy * bottom, 8);
+    }
+    static Int texel_code(Int v, bool is_signed) {
+        return is_signed ? shift_half_up(v - 32768, 1) : (v + (v >> 8) + 2) >> 2;
     }
     static Int to_8_bits(Int v) { return shift_half_up(255 * v, 14); }
     static Int to_16_bits(Int v) { return shift_half_up(65535 * v, 14); }
@@ -373,7 +376,8 @@ void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
             const Int value =
                 Model::filter(texel(upper), texel(upper + 4), texel(lower), texel(lower + 4),
                               packet.weight_x[i], packet.weight_y[i]);
-            plane(packet, ctx.plane[k / 4] + c)[i] = static_cast<std::int16_t>(value);
+            plane(packet, ctx.plane[k / 4] + c)[i] =
+                static_cast<std::int16_t>(Model::texel_code(value, ctx.is_signed[k / 4] != 0));
         }
     }
 }

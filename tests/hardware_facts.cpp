@@ -158,6 +158,28 @@ TEST_F(HardwareFacts, H11BlueToAlphaCopiesTheResult) {
     }
 }
 
+// All 256 signed bytes through a clamp at zero, and their negatives.
+TEST_F(HardwareFacts, H12SignedTexelsEnterAsTwiceTheirValue) {
+    std::string texels;
+    for (int s = 0; s < 256; ++s) texels += fmt::format("{0}, {0}, {0}, 127, ", s);
+    const auto row = [&](const std::string& program) {
+        const std::string texture =
+            "[[textures]]\nname = \"t\"\nformat = \"signed_rgba8\"\nfilter = \"nearest\"\n"
+            "width = 256\nheight = 1\ntexels = [" +
+            texels + "]\n";
+        return draw("units = [\"t\"]\ncombiners_text = '''!!RC1.0 " + program + "'''\n", 256, 1, "",
+                    texture);
+    };
+    const Framebuffer plain = row("out.rgb = tex0; out.a = tex0;");
+    const Framebuffer negated = row("{ rgb { spare0 = -tex0; } } out.rgb = spare0;");
+    for (int s = 0; s < 256; ++s) {
+        const int value = s < 128 ? s : s - 256;
+        ASSERT_EQ(pixel(plain, s)[0], std::max(0, 2 * value)) << "texel " << value;
+        ASSERT_EQ(pixel(plain, s)[3], 254);
+        ASSERT_EQ(pixel(negated, s)[0], std::min(std::max(0, -2 * value), 255)) << value;
+    }
+}
+
 TEST_F(HardwareFacts, H14ColorsOfVerticesBecomeBytes) {
     const std::array<std::pair<const char*, int>, 10> pairs{{{"0.1", 25},
                                                              {"0.2", 51},

@@ -158,7 +158,7 @@ void point_at(PacketMemory& packet, int i, std::int32_t texel, int wx, int wy) {
 }
 
 // All 65,536 pairs of weights for the 16 ways to be black or white at the four corners.
-void check_weights(const KernelTable& table, FetchStage stage) {
+void check_weights(const KernelTable& table, FetchStage stage, std::uint8_t is_signed = 0) {
     TwoRows texture(4);
     // Texels x and x + 1 of both rows are the corners; channel c adds three more arrangements.
     for (int c = 0; c < 4; ++c) {
@@ -168,7 +168,7 @@ void check_weights(const KernelTable& table, FetchStage stage) {
         }
     }
     PacketMemory packet;
-    const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, 1, texture.pitch};
+    const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, {is_signed}, 1, texture.pitch};
     for (int wx = 0; wx < 256; ++wx) {
         for (int x = 0; x < 4; ++x) {
             for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, x, wx, i);
@@ -188,10 +188,10 @@ TEST_P(KernelTest, WideFetchWithEveryPairOfWeights) {
 
 // Every lerp of two bytes with every weight: across (four values of the left texel at a time, one
 // per channel, all weights of a packet) and, with equal columns, down.
-void check_every_lerp(const KernelTable& table, FetchStage stage) {
+void check_every_lerp(const KernelTable& table, FetchStage stage, std::uint8_t is_signed = 0) {
     TwoRows texture(511);
     PacketMemory packet;
-    const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, 1, texture.pitch};
+    const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, {is_signed}, 1, texture.pitch};
     for (int left = 0; left < 256; left += 4) {
         for (int c = 0; c < 4; ++c) {
             for (int x = 0; x < 512; ++x) {
@@ -217,6 +217,16 @@ TEST_P(KernelTest, NineBitFetchOfEveryLerp) {
     check_every_lerp(table(), &KernelTable::fetch_nine_bit);
 }
 
+TEST_P(KernelTest, NineBitFetchOfSignedTexels) {
+    check_weights(table(), &KernelTable::fetch_nine_bit, 1);
+    check_every_lerp(table(), &KernelTable::fetch_nine_bit, 1);
+}
+
+TEST_P(KernelTest, WideFetchOfSignedTexels) {
+    check_weights(table(), &KernelTable::fetch_wide, 1);
+    check_every_lerp(table(), &KernelTable::fetch_wide, 1);
+}
+
 TEST_P(KernelTest, WideFetchOfEveryLerp) {
     check_every_lerp(table(), &KernelTable::fetch_wide);
 }
@@ -240,11 +250,12 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
             packet.weight_x[i] = static_cast<std::int16_t>(random.below(256));
             packet.weight_y[i] = static_cast<std::int16_t>(random.below(256));
         }
-        FetchCtx ctx{{}, {}, random.between(1, FetchCtx::kMaxTextures), pitch};
+        FetchCtx ctx{{}, {}, {}, random.between(1, FetchCtx::kMaxTextures), pitch};
         Written written;
         for (int k = 0; k < ctx.count; ++k) {  // overlapping textures are textures, too
             ctx.texels[k] = texels.data() + 4 * k;
             ctx.plane[k] = kTexelPlane - 5 * k;
+            ctx.is_signed[k] = static_cast<std::uint8_t>(random.chance(3) ? 1 : 0);
             for (int c = 0; c < 4; ++c) written.planes.push_back(ctx.plane[k] + c);
         }
         ASSERT_EQ(stage_difference(table, stage, packet, ctx, written), "")

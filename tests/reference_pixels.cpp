@@ -268,12 +268,12 @@ TEST_P(ReferencePixels, FilterRoundsAcrossThenDown) {
     packet.weight_y = packet.weight_x;
     packet.count = 1;
     Packet view = packet.view();
-    table().fetch_nine_bit(view, {{texels.data()}, {0}, 1, 8});
+    table().fetch_nine_bit(view, {{texels.data()}, {0}, {0}, 1, 8});
     // 1/4 comes out as 1: 1/2 rounds up across, then again down. 127.5 rounds up.
     const std::array<int, 4> nine_bit{1, 128, 255, 128};
     for (int c = 0; c < 4; ++c)
         EXPECT_EQ(packet.plane(c)[0], nine_bit[static_cast<std::size_t>(c)]) << "channel " << c;
-    table().fetch_wide(view, {{texels.data()}, {0}, 1, 8});
+    table().fetch_wide(view, {{texels.data()}, {0}, {0}, 1, 8});
     // 1/4 * 16384 / 255 = 16.06, 16384 / 2, 16384, 128 * 16384 / 255 = 8224.25
     const std::array<int, 4> wide{16, 8192, 16384, 8224};
     for (int c = 0; c < 4; ++c)

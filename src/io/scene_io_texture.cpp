@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, Filter>, 2> kFilters{
     {{"nearest", Filter::nearest}, {"linear", Filter::linear}}};
+constexpr std::array<std::pair<std::string_view, TexelFormat>, 2> kTexelFormats{
+    {{"rgba8", TexelFormat::rgba8}, {"signed_rgba8", TexelFormat::signed_rgba8}}};
 constexpr std::array<std::pair<std::string_view, Wrap>, 2> kWraps{
     {{"repeat", Wrap::repeat}, {"clamp_to_edge", Wrap::clamp_to_edge}}};
 
@@ -50,6 +52,19 @@ Sampler read_sampler(const Section& section) {
         sampler.wrap_t = wrap_named(section, (*wraps)[1]);
     }
     return sampler;
+}
+
+TexelFormat read_format(const Section& section) {
+    for (const char* later : {"r8", "hilo16", "signed_hilo16", "dsdt8", "dsdt8_mag8",
+                              "dsdt8_mag8_intensity8", "rgba16"}) {
+        if (section.text("format").value_or("") == later) section.refuse({"format"});
+    }
+    const TexelFormat format =
+        section.choice<TexelFormat>("format", kTexelFormats).value_or(TexelFormat::rgba8);
+    if (format != TexelFormat::rgba8 && section.has("generator"))
+        section.fail("format", fmt::format("'format' in {}, expected rgba8 for a generated map",
+                                           section.label()));
+    return format;
 }
 
 Image8 read_texels(const Section& section) {
@@ -99,7 +114,6 @@ NamedTexture read_generated(const Section& section, const Sampler& sampler, Brus
 NamedTexture read_texture(const Section& section, const std::filesystem::path& directory,
                           BrushedSets& sets) {
     section.refuse({"mip_files"});
-    section.accept_only("format", "rgba8");
     section.accept_only("target", "2d");
     section.accept_only("mipmaps", "none");
     if (section.number("lod_bias").value_or(0.0F) != 0.0F) section.refuse({"lod_bias"});
@@ -112,12 +126,13 @@ NamedTexture read_texture(const Section& section, const std::filesystem::path& d
                                  "generator",
                                  section.label(), sources));
     const Sampler sampler = read_sampler(section);
+    const TexelFormat format = read_format(section);
     if (section.has("generator")) return read_generated(section, sampler, sets);
     if (section.has("texels"))
-        return {std::make_shared<const Texture>(read_texels(section), sampler), 0.0F};
+        return {std::make_shared<const Texture>(read_texels(section), sampler, format), 0.0F};
     const std::filesystem::path file = directory / section.text("file").value();
     try {
-        return {std::make_shared<const Texture>(read_image_file(file), sampler), 0.0F};
+        return {std::make_shared<const Texture>(read_image_file(file), sampler, format), 0.0F};
     } catch (const Error& error) {
         throw Error(error.code(), section.place("file") + ": " + error.what());
     }

@@ -184,10 +184,11 @@ class Planner {
         if (!shares) m_texture_ops.emplace_back(address);
         auto* fetch = shares ? &std::get<FetchCtx>(m_texture_ops.back()) : nullptr;
         if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
-            m_texture_ops.emplace_back(FetchCtx{{}, {}, 0, texture.pitch()});
+            m_texture_ops.emplace_back(FetchCtx{{}, {}, {}, 0, texture.pitch()});
             fetch = &std::get<FetchCtx>(m_texture_ops.back());
         }
         fetch->texels[fetch->count] = texture.texels();
+        fetch->is_signed[fetch->count] = texture.format() == TexelFormat::signed_rgba8 ? 1 : 0;
         fetch->plane[fetch->count++] = plane;
     }
 

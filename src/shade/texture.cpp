@@ -21,11 +21,12 @@ std::int32_t row_pitch(int width) {
 
 }  // namespace
 
-Texture::Texture(const Image8& image, const Sampler& sampler)
+Texture::Texture(const Image8& image, const Sampler& sampler, TexelFormat format)
     : m_width(image.width),
       m_height(image.height),
       m_pitch(0),
       m_sampler(sampler),
+      m_format(format),
       m_texels(nullptr) {
     if (m_width < 1 || m_height < 1) {
         throw Error(
@@ -56,6 +57,9 @@ Texture::Texture(const Image8& image, const Sampler& sampler)
         std::uint8_t* to = texels + static_cast<std::ptrdiff_t>(y) * m_pitch;
         std::copy_n(from, row_bytes, to);
         std::copy_n(from + extra, 4, to + row_bytes);
+    }
+    if (m_format == TexelFormat::signed_rgba8) {
+        for (std::uint8_t& byte : m_storage) byte ^= 0x80U;  // n to n + 128
     }
     m_texels = texels;
 }

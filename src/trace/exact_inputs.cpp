@@ -111,7 +111,7 @@ void ExactInputs::fetch(const FetchCtx& ctx) {
         const Texture& texture = *m_shading.textures[unit_of_plane(m_shading, ctx.plane[k])];
         for (int c = 0; c < 4; ++c) {
             const auto texel = [&](int right, int down) {
-                return texel_byte(texture, s.texel + right, t.texel + down, c) / 255.0;
+                return texel_value(texture, s.texel + right, t.texel + down, c);
             };
             m_planes[static_cast<std::size_t>(ctx.plane[k] + c)] =
                 mix(mix(texel(0, 0), texel(1, 0), s.weight),

@@ -38,6 +38,12 @@ struct Sampler {
     Wrap wrap_t = Wrap::repeat;
 };
 
+/// What the bytes of a texel mean.
+enum class TexelFormat {
+    rgba8,         ///< n / 255
+    signed_rgba8,  ///< two's complement, n / 128; filtered as signed numbers
+};
+
 /// A texture in the layout that the fetch kernels read. Immutable.
 ///
 /// Each row is followed by one extra column (the first texel again, or the last one when clamping),
@@ -51,7 +57,7 @@ class Texture {
 
     /// Throws Error{bad_input} if the image is empty or its byte count does not fit its size,
     /// Error{limit} if a side exceeds kMaxSize.
-    Texture(const Image8& image, const Sampler& sampler);
+    Texture(const Image8& image, const Sampler& sampler, TexelFormat format = TexelFormat::rgba8);
     Texture(Texture&&) noexcept = default;
     Texture& operator=(Texture&&) noexcept = default;
     Texture(const Texture&) = delete;
@@ -61,9 +67,10 @@ class Texture {
     [[nodiscard]] int width() const noexcept { return m_width; }
     [[nodiscard]] int height() const noexcept { return m_height; }
     [[nodiscard]] const Sampler& sampler() const noexcept { return m_sampler; }
+    [[nodiscard]] TexelFormat format() const noexcept { return m_format; }
     /// Bytes from one row to the next.
     [[nodiscard]] std::int32_t pitch() const noexcept { return m_pitch; }
-    /// Texel (0, 0): r, g, b, a.
+    /// Texel (0, 0): r, g, b, a; of signed formats each value + 128.
     [[nodiscard]] const std::uint8_t* texels() const noexcept { return m_texels; }
 
   private:
@@ -71,6 +78,7 @@ class Texture {
     int m_height;
     std::int32_t m_pitch;
     Sampler m_sampler;
+    TexelFormat m_format;
     std::vector<std::uint8_t> m_storage;
     const std::uint8_t* m_texels;
 };
