@@ -10,8 +10,6 @@
 
 #include "tests/scratch_directory.hpp"
 
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
 namespace burnish {
 
 /// Runs the real command in a directory of its own.

@@ -12,8 +12,6 @@
 namespace burnish {
 namespace {
 
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
 class SceneFiles : public ScratchDirectory {
   protected:
     /// The scene that `text` describes, after "schema = 1" in line 1.

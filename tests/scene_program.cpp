@@ -12,8 +12,6 @@
 namespace burnish {
 namespace {
 
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
 class ScenePrograms : public ScratchDirectory {
   protected:
     static constexpr const char* kProgram =

@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+/// That a message contains `part`; shows the whole of it if not.
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
 namespace burnish {
 
 /// A test with a directory of its own that is gone afterwards.
