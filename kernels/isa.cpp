@@ -15,6 +15,7 @@ namespace {
 #include "kernels/final.inl"  // after combine.inl, whose products it uses
 #include "kernels/interpolate.inl"
 #include "kernels/rasterize.inl"
+#include "kernels/texture_shader.inl"
 #include "kernels/transform.inl"
 
 #define BURNISH_STRINGIFY_(x) #x

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/packet_stages.hpp"
+#include "kernels/texture_stages.hpp"
 #include "kernels/tile_stages.hpp"
 
 /// Every stage with the type of its argument, once. Enumerations, tables, tests and benchmarks come
@@ -21,6 +22,18 @@
     X(address, AddressCtx)          \
     X(fetch_nine_bit, FetchCtx)     \
     X(fetch_wide, FetchCtx)         \
+    X(decode_nine_bit, DecodeCtx)   \
+    X(decode_wide, DecodeCtx)       \
+    X(affine, AffineCtx)            \
+    X(dot_product, DotCtx)          \
+    X(hemisphere, HemisphereCtx)    \
+    X(offset, OffsetCtx)            \
+    X(reflect, ReflectCtx)          \
+    X(quotient, QuotientCtx)        \
+    X(angle, AngleCtx)              \
+    X(cull, CullCtx)                \
+    X(dim_nine_bit, MagnitudeCtx)   \
+    X(dim_wide, MagnitudeCtx)       \
     X(portion_nine_bit, PortionCtx) \
     X(portion_wide, PortionCtx)     \
     X(final_nine_bit, FinalCtx)     \

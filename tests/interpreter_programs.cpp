@@ -83,7 +83,7 @@ void check_programs(const KernelTable& table, const Machine& profile, unsigned p
         const CombinerProgram program = random_program(random, machine);
         const auto enabled = static_cast<std::uint32_t>(random.below(1 << machine.texture_units)) |
                              static_cast<std::uint32_t>(random.below(1 << machine.texture_units));
-        const BoundProgram bound = bind(program, machine, enabled);
+        const BoundProgram bound = bind(program, machine, {.enabled = enabled});
         const int count = random.between(1, 40);
         const std::vector<RegisterFile> inputs = random_inputs(random, machine, count, enabled);
         ProgramPacket memory(bound, inputs);

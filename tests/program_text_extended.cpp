@@ -156,7 +156,7 @@ TEST(ProgramTextExtended, NothingRunsFetchesYet) {
         }
         return false;
     };
-    EXPECT_TRUE(refuses([&] { (void)bind(program, ideal, 3); }));
+    EXPECT_TRUE(refuses([&] { (void)bind(program, ideal, {.enabled = 3}); }));
     EXPECT_TRUE(refuses([&] { (void)run_combiners(program, ideal, {}); }));
 }
 

@@ -210,11 +210,7 @@ TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
                                          texture + "target = \"cube\"\n",
                                          texture + "lod_bias = 1.0\n",
                                          material + "alpha_test = \"greater\"\n",
-                                         material + "texture_shader = \"a.ts\"\n",
                                          material + "normal_y = \"down\"\n",
-                                         material +
-                                             "units = []\n[materials.hardware]\n"
-                                             "cull_fragment_bits = \"0101\"\n",
                                          object + "blend = \"alpha\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");

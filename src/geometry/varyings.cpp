@@ -19,7 +19,8 @@ glm::vec3 normalised(const glm::vec3& v) {
 
 /// Everything that a lit vertex may be asked for.
 struct LitVertex {
-    glm::vec3 half{}, light{}, view{};  // in the tangent frame, x/2 + 1/2
+    glm::vec3 normal{};                 // object space, x/2 + 1/2
+    glm::vec3 half{}, light{}, view{};  // in the tangent frame, likewise
     float n_dot_l = 0.0F;
 };
 
@@ -42,7 +43,7 @@ LitVertex light_vertex(const VertexFrame& v, const LightSpace& space, const Want
         return glm::vec3(dot(t, x), dot(b, x), dot(v.normal, x)) * 0.5F + 0.5F;
     };
     const glm::vec3 l = normalised(space.light - v.position * space.light_w);
-    LitVertex lit{.n_dot_l = std::max(dot(v.normal, l), 0.0F)};
+    LitVertex lit{.normal = v.normal * 0.5F + 0.5F, .n_dot_l = std::max(dot(v.normal, l), 0.0F)};
     if (wanted.light) lit.light = coded(l);
     if (!wanted.half && !wanted.view) return lit;
     const glm::vec3 view = normalised(space.eye - v.position);
@@ -63,6 +64,8 @@ float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit)
             return v.n_dot_l;
         case Varying::Source::lit:
             return v.n_dot_l * lit.tint[varying.index] + lit.base[varying.index];
+        case Varying::Source::normal:
+            return v.normal[varying.index];
         default:
             return 0.0F;  // a mesh has no vertex colours
     }

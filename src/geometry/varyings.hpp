@@ -29,6 +29,7 @@ struct Varying {
         view_tangent,
         n_dot_l,  ///< max(0, normal . light)
         lit,      ///< n_dot_l * tint + base
+        normal,   ///< component `index`, object space, x/2 + 1/2
     };
     Source source;
     int index;

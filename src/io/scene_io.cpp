@@ -33,6 +33,8 @@ constexpr std::array<std::pair<std::string_view, Halving>, 2> kHalvings{
     {{"half_up", Halving::half_up}, {"down", Halving::down}}};
 constexpr std::array<std::pair<std::string_view, LerpRounding>, 2> kLerpRoundings{
     {{"once", LerpRounding::once}, {"each", LerpRounding::each}}};
+constexpr std::array<std::pair<std::string_view, MagnitudeFactor>, 2> kMagnitudeFactors{
+    {{"unclamped", MagnitudeFactor::unclamped}, {"clamped", MagnitudeFactor::clamped}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> kSnaps{
     {{"nearest", false}, {"floor", true}}};
 
@@ -56,10 +58,11 @@ Machine read_profile(const Section& section) {
 }
 
 void read_machine(const toml::table& table, Scene& scene) {
-    const Section section(table, "[machine]",
-                          {"profile", "filter_order", "texture_units", "general_stages",
-                           "stage_constants", "numbers", "product_rounding", "expand", "halving",
-                           "lerp_rounding", "subpixel_bits", "snap", "half_vector"});
+    const Section section(
+        table, "[machine]",
+        {"profile", "filter_order", "texture_units", "general_stages", "stage_constants", "numbers",
+         "product_rounding", "expand", "halving", "lerp_rounding", "magnitude_factor",
+         "subpixel_bits", "snap", "half_vector"});
     Machine machine = read_profile(section);
     section.accept_only("filter_order", "before");
     if (section.text("half_vector").value_or("").starts_with("cube:"))
@@ -76,6 +79,9 @@ void read_machine(const toml::table& table, Scene& scene) {
     machine.halving = section.choice<Halving>("halving", kHalvings).value_or(machine.halving);
     machine.lerp_rounding = section.choice<LerpRounding>("lerp_rounding", kLerpRoundings)
                                 .value_or(machine.lerp_rounding);
+    machine.magnitude_factor =
+        section.choice<MagnitudeFactor>("magnitude_factor", kMagnitudeFactors)
+            .value_or(machine.magnitude_factor);
     machine.half_vector =
         section.choice<HalfVector>("half_vector", kHalfVectors).value_or(machine.half_vector);
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);

@@ -12,7 +12,6 @@ namespace {
 void refuse_unsupported(const Section& section) {
     section.accept_only("alpha_test", "off");
     section.accept_only("normal_y", "up");
-    section.refuse({"texture_shader", "texture_shader_text"});
 }
 
 Model read_model(const Section& section) {

@@ -9,16 +9,26 @@
 #include "core/nearest.hpp"
 #include "core/read_text.hpp"
 #include "io/scene_io_parts.hpp"
+#include "machine/unit_operations.hpp"
 
 namespace burnish {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ColorInput>, 5> kRgbInputs{
+constexpr std::array<std::pair<std::string_view, ColorInput>, 6> kRgbInputs{
     {{"vertex", ColorInput::vertex},
      {"half_tangent", ColorInput::half_tangent},
      {"light_tangent", ColorInput::light_tangent},
      {"view_tangent", ColorInput::view_tangent},
+     {"normal", ColorInput::normal},
      {"n_dot_l", ColorInput::n_dot_l}}};
+constexpr std::array<std::pair<std::string_view, CoordinateInput>, 5> kCoordinateInputs{
+    {{"uv", CoordinateInput::uv},
+     {"half_tangent", CoordinateInput::half_tangent},
+     {"light_tangent", CoordinateInput::light_tangent},
+     {"view_tangent", CoordinateInput::view_tangent},
+     {"vertex", CoordinateInput::vertex}}};
+constexpr std::array<std::pair<std::string_view, BumpSource>, 2> kBumpSources{
+    {{"dsdt", BumpSource::dsdt}, {"rgba8", BumpSource::rgba8}}};
 constexpr std::array<std::pair<std::string_view, ColorInput>, 2> kAlphaInputs{
     {{"vertex", ColorInput::vertex}, {"n_dot_l", ColorInput::n_dot_l}}};
 constexpr std::array<std::pair<std::string_view, MuxBit>, 2> kMuxBits{
@@ -29,9 +39,10 @@ void read_inputs(const Section& material, ProgramMaterial& program) {
     if (table == nullptr) return;
     const Section section(*table, "[materials.inputs]",
                           {"col0_rgb", "col0_a", "col1_rgb", "col1_a", "uv0", "uv1", "uv2", "uv3"});
-    for (const std::string_view key : {"uv0", "uv1", "uv2", "uv3"}) section.accept_only(key, "uv");
-    for (const std::string_view key : {"col0_rgb", "col1_rgb"}) {
-        if (section.has(key) && section.text(key) == "normal") section.refuse({key});
+    constexpr std::array<std::string_view, 4> kSets{"uv0", "uv1", "uv2", "uv3"};
+    for (std::size_t i = 0; i < kSets.size(); ++i) {
+        program.uv[i] =
+            section.choice<CoordinateInput>(kSets[i], kCoordinateInputs).value_or(program.uv[i]);
     }
     program.col0_rgb =
         section.choice<ColorInput>("col0_rgb", kRgbInputs).value_or(program.col0_rgb);
@@ -69,29 +80,30 @@ std::vector<TexturePtr> read_units(const Section& section, const TextureTable& t
                 fmt::format("{}:{}: {}{}", place, first.column, first.message, more));
 }
 
-std::string read_file(const Section& section, const std::filesystem::path& path) {
-    try {
-        return read_text(path);
-    } catch (const Error& error) {
-        throw Error(error.code(), section.place("combiners") + ": " + error.what());
-    }
-}
-
-/// The program that a material names or holds; nothing if it does neither.
-std::optional<CombinerProgram> read_combiners(const Section& section,
-                                              const std::filesystem::path& directory) {
-    const auto file = section.text("combiners"), text = section.text("combiners_text");
+/// The program that `key` names as a file or that `key`_text holds; nothing if neither is there.
+template <class Program>
+std::optional<Program> read_text_program(const Section& section, const std::string& key,
+                                         const std::filesystem::path& directory,
+                                         Parsed<Program> (*parse)(std::string_view)) {
+    const std::string text_key = key + "_text";
+    const auto file = section.text(key), text = section.text(text_key);
     if (file && text)
-        section.fail("combiners_text", fmt::format("{} has both 'combiners' and 'combiners_text', "
-                                                   "expected one",
-                                                   section.label()));
+        section.fail(text_key, fmt::format("{} has both '{}' and '{}', expected one",
+                                           section.label(), key, text_key));
     if (!file && !text) return std::nullopt;
     const std::filesystem::path path = file ? directory / *file : std::filesystem::path();
-    const Parsed<CombinerProgram> parsed = parse_combiners(file ? read_file(section, path) : *text);
-    if (parsed.program) return parsed.program;
+    const auto read_file = [&] {
+        try {
+            return read_text(path);
+        } catch (const Error& error) {
+            throw Error(error.code(), section.place(key) + ": " + error.what());
+        }
+    };
+    Parsed<Program> parsed = parse(file ? read_file() : *text);
+    if (parsed.program) return std::move(parsed.program);
     const std::size_t line = parsed.errors.front().line;
     fail_text(file ? fmt::format("{}:{}", path.string(), line)
-                   : fmt::format("{}: combiners_text:{}", section.place("combiners_text"), line),
+                   : fmt::format("{}: {}:{}", section.place(text_key), text_key, line),
               parsed.errors);
 }
 
@@ -153,15 +165,82 @@ void read_blue_to_alpha(const Section& section, const toml::table& table,
     }
 }
 
-void read_hardware(const Section& material, CombinerProgram& program) {
+/// Four digits for s, t, r, q of every unit that culls: 0 lets >= 0 pass, 1 lets < 0 pass.
+void read_cull_bits(const Section& section, TextureShader& shader) {
+    const std::optional<std::string> bits = section.text("cull_fragment_bits");
+    if (!bits) return;
+    if (bits->size() != 4 || bits->find_first_not_of("01") != std::string::npos)
+        section.fail("cull_fragment_bits",
+                     fmt::format("'cull_fragment_bits' = \"{}\" in {}, expected four digits 0 or 1",
+                                 *bits, section.label()));
+    bool culls = false;
+    for (TextureUnit& unit : shader.units) {
+        if (unit.operation != TextureOperation::cull_fragment) continue;
+        culls = true;
+        for (std::size_t c = 0; c < 4; ++c) {
+            unit.cull.at(c) =
+                (*bits)[c] == '1' ? CullTest::less_than_zero : CullTest::greater_or_equal_zero;
+        }
+    }
+    if (!culls)
+        section.fail("cull_fragment_bits",
+                     fmt::format("'cull_fragment_bits' in {}, but no unit does cull_fragment",
+                                 section.label()));
+}
+
+/// One code 0 .. 7 per unit, -1 where the text stands.
+void read_dot_mappings(const Section& section, TextureShader& shader) {
+    const std::optional<std::vector<float>> codes =
+        section.numbers("dot_mapping", 1, kTextureShaderUnits, {-1.0, 7.0});
+    if (!codes) return;
+    constexpr std::array<DotMapping, 8> kCodes{DotMapping::unsigned_identity,
+                                               DotMapping::nv2a_d3d,
+                                               DotMapping::nv2a_gl,
+                                               DotMapping::nv2a_signed,
+                                               DotMapping::nv2a_hilo,
+                                               DotMapping::nv2a_hemisphere_d3d,
+                                               DotMapping::nv2a_hemisphere_gl,
+                                               DotMapping::nv2a_hemisphere_signed};
+    for (std::size_t i = 0; i < codes->size(); ++i) {
+        const float code = (*codes)[i];
+        if (code != std::floor(code))
+            section.fail("dot_mapping", fmt::format("'dot_mapping' in {} has the element {}, "
+                                                    "expected whole numbers -1 .. 7",
+                                                    section.label(), code));
+        if (code < 0.0F) continue;
+        TextureUnit& unit = shader.units.at(i);
+        if (!takes_dot_product(unit.operation))
+            section.fail("dot_mapping",
+                         fmt::format("'dot_mapping' in {} is for unit {}, which does {}, expected "
+                                     "-1 or a dot product",
+                                     section.label(), i, texture_operation_name(unit.operation)));
+        unit.dot_mapping = kCodes.at(static_cast<std::size_t>(code));
+    }
+}
+
+void read_hardware(const Section& material, ProgramMaterial& program) {
     const toml::table* table = material.table("hardware");
     if (table == nullptr) return;
     const Section section(*table, "[materials.hardware]",
-                          {"mux_bit", "complement", "blue_to_alpha", "cull_fragment_bits"});
-    section.refuse({"cull_fragment_bits"});
-    program.mux_bit = section.choice<MuxBit>("mux_bit", kMuxBits).value_or(program.mux_bit);
-    read_complements(section, program.final_combiner);
-    read_blue_to_alpha(section, *table, program);
+                          {"mux_bit", "complement", "blue_to_alpha", "cull_fragment_bits",
+                           "dot_mapping", "bump_source"});
+    CombinerProgram& combiners = program.combiners;
+    combiners.mux_bit = section.choice<MuxBit>("mux_bit", kMuxBits).value_or(combiners.mux_bit);
+    read_complements(section, combiners.final_combiner);
+    read_blue_to_alpha(section, *table, combiners);
+    if (!program.texture_shader) {
+        for (const std::string_view key : {"cull_fragment_bits", "dot_mapping", "bump_source"}) {
+            if (section.has(key))
+                section.fail(
+                    key, fmt::format("'{}' in {} without a texture shader", key, section.label()));
+        }
+        return;
+    }
+    TextureShader& shader = *program.texture_shader;
+    shader.bump_source =
+        section.choice<BumpSource>("bump_source", kBumpSources).value_or(shader.bump_source);
+    read_cull_bits(section, shader);
+    read_dot_mappings(section, shader);
 }
 
 }  // namespace
@@ -181,10 +260,12 @@ ProgramMaterial vertex_color_program(std::vector<TexturePtr> units) {
 
 std::optional<ProgramMaterial> read_program(const Section& section, const TextureTable& textures,
                                             const std::filesystem::path& directory) {
-    std::optional<CombinerProgram> combiners = read_combiners(section, directory);
+    std::optional<CombinerProgram> combiners =
+        read_text_program<CombinerProgram>(section, "combiners", directory, parse_combiners);
     if (!combiners && !section.has("units")) {
-        for (const std::string_view key : {"inputs", "const0", "const1", "const0_bytes",
-                                           "const1_bytes", "fog", "clamp_color_sum", "hardware"}) {
+        for (const std::string_view key :
+             {"inputs", "const0", "const1", "const0_bytes", "const1_bytes", "fog",
+              "clamp_color_sum", "hardware", "texture_shader", "texture_shader_text"}) {
             if (section.has(key))
                 section.fail(key, fmt::format("'{}' in {} without 'units' or 'combiners'", key,
                                               section.label()));
@@ -193,13 +274,15 @@ std::optional<ProgramMaterial> read_program(const Section& section, const Textur
     }
     ProgramMaterial program = vertex_color_program(read_units(section, textures));
     if (combiners) program.combiners = std::move(*combiners);
+    program.texture_shader = read_text_program<TextureShader>(section, "texture_shader", directory,
+                                                              parse_texture_shader);
     CombinerProgram& p = program.combiners;
     p.const0 = read_constant(section, "const0").value_or(p.const0);
     p.const1 = read_constant(section, "const1").value_or(p.const1);
     p.fog = section.vec4("fog", kUnit).value_or(p.fog);
     p.final_combiner.clamp_color_sum =
         section.boolean("clamp_color_sum").value_or(p.final_combiner.clamp_color_sum);
-    read_hardware(section, p);
+    read_hardware(section, program);
     read_inputs(section, program);
     return program;
 }

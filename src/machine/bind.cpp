@@ -46,14 +46,14 @@ ProductKind kind_of(Product p) {
 /// Turns a program into operations on values, then values into planes.
 class Binder {
   public:
-    Binder(const CombinerProgram& program, const Machine& machine, std::uint32_t enabled_units)
+    Binder(const CombinerProgram& program, const Machine& machine, const UnitStates& units)
         : m_program(program),
           m_machine(machine),
           m_numbers(machine.numbers),
           m_stage_count(static_cast<int>(program.stages.size())) {
         m_one = m_numbers == NumberModel::nine_bit ? 255 : 16384;
         for (auto& components : m_bound.input) components.fill(-1);
-        set_initial_registers(enabled_units);
+        set_initial_registers(units);
     }
 
     BoundProgram bind(const Wanted& wanted) {
@@ -94,7 +94,7 @@ class Binder {
         return values;
     }
 
-    void set_initial_registers(std::uint32_t enabled_units) {
+    void set_initial_registers(const UnitStates& units) {
         const Value zero = constant(0), one = constant(m_one);
         for (Components& components : m_registers) components.fill(zero);
         at(Register::const0) = constant(m_program.const0);
@@ -103,8 +103,10 @@ class Binder {
         at(Register::col0) = input(Register::col0);
         at(Register::col1) = input(Register::col1);
         for (int unit = 0; unit < 16; ++unit) {
-            const bool enabled = (enabled_units >> unit & 1) != 0;
-            at(tex(unit)) = enabled ? input(tex(unit)) : Components{zero, zero, zero, one};
+            const bool enabled = (units.enabled >> unit & 1) != 0;
+            const bool black = (units.black >> unit & 1) != 0;
+            at(tex(unit)) =
+                enabled ? input(tex(unit)) : Components{zero, zero, zero, black ? zero : one};
         }
         at(Register::spare0)[3] = at(tex(0))[3];
     }
@@ -493,11 +495,11 @@ bool BoundProgram::reads(Register r) const {
     return std::any_of(planes.begin(), planes.end(), [](int plane) { return plane >= 0; });
 }
 
-BoundProgram bind(const CombinerProgram& program, const Machine& machine,
-                  std::uint32_t enabled_units, const Wanted& wanted) {
+BoundProgram bind(const CombinerProgram& program, const Machine& machine, const UnitStates& units,
+                  const Wanted& wanted) {
     program.validate(machine);
     require_no_fetches(program);
-    return Binder(program, machine, enabled_units).bind(wanted);
+    return Binder(program, machine, units).bind(wanted);
 }
 
 void load_constants(const BoundProgram& program, Packet& packet) {

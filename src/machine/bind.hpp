@@ -37,6 +37,12 @@ struct BoundProgram {
     [[nodiscard]] bool reads(Register r) const;
 };
 
+/// What texture units hand to a program; bit i is unit i's.
+struct UnitStates {
+    std::uint32_t enabled = 0;  ///< delivers texels
+    std::uint32_t black = 0;    ///< not enabled and reads (0, 0, 0, 0); else it reads (0, 0, 0, 1)
+};
+
 /// What is wanted of a program; the inputs that it asks for follow from that.
 struct Wanted {
     bool everything = false;  ///< also results that nothing reads
@@ -45,11 +51,10 @@ struct Wanted {
     bool coded = false;  ///< the register as x/2 + 1/2, 0 .. 1, for frames without signs
 };
 
-/// @param enabled_units bit i: texture unit i delivers texels; others read (0, 0, 0, 1).
 /// Throws Error{bad_program} for what `machine` cannot run, and for fetches between stages, which
 /// are not supported yet.
-BoundProgram bind(const CombinerProgram& program, const Machine& machine,
-                  std::uint32_t enabled_units, const Wanted& wanted = {});
+BoundProgram bind(const CombinerProgram& program, const Machine& machine, const UnitStates& units,
+                  const Wanted& wanted = {});
 
 /// Fills the constant planes of a packet; needed once per packet memory and program.
 void load_constants(const BoundProgram& program, Packet& packet);

@@ -16,6 +16,7 @@ Machine nv2a() {
     machine.general_stages = 8;
     machine.stage_fetches = false;
     machine.texture_operations = TextureOperations::nv2a;
+    machine.magnitude_factor = MagnitudeFactor::unclamped;
     machine.numbers = NumberModel::nine_bit;
     machine.half_vector = HalfVector::vertex;
     machine.subpixel_bits = 4;

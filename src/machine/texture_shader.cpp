@@ -100,6 +100,12 @@ bool all_finite(const TextureUnit& unit) {
     return std::isfinite(sum);
 }
 
+/// Bytes read in ways that only the hardware has: nine-bit codes are bytes, wide ones are not.
+bool has_nv2a_readings(const Machine& machine) {
+    return machine.numbers == NumberModel::nine_bit &&
+           machine.texture_operations != TextureOperations::plain;
+}
+
 void check_unit(int index, const TextureUnit& unit, const Machine& machine) {
     const auto fail = [index](const std::string& message) {
         throw Error(ErrorCode::bad_program, fmt::format("texture unit {}: {}", index, message));
@@ -115,6 +121,9 @@ void check_unit(int index, const TextureUnit& unit, const Machine& machine) {
     if (unit.dot_mapping == DotMapping::force_blue_to_one &&
         machine.texture_operations != TextureOperations::all)
         fail(fmt::format("machine '{}' does not have force_blue_to_one", machine.name));
+    if (unit.dot_mapping >= DotMapping::nv2a_d3d && !has_nv2a_readings(machine))
+        fail(fmt::format("a dot mapping of the NV2A, which machine '{}' does not have",
+                         machine.name));
     if (reads_previous(unit.operation) && (unit.previous < 0 || unit.previous >= index))
         fail(fmt::format("reads unit {}, expected an earlier one", unit.previous));
     if (!all_finite(unit)) fail("a parameter is not a finite number");
@@ -138,6 +147,11 @@ bool replaces_depth(TextureOperation operation) {
 }
 
 void TextureShader::validate(const Machine& machine) const {
+    if (bump_source == BumpSource::rgba8 && !has_nv2a_readings(machine))
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("bump_source rgba8 is a mode of the NV2A, which machine '{}' does "
+                                "not have",
+                                machine.name));
     for (int i = 0; i < kTextureShaderUnits; ++i)
         check_unit(i, units[static_cast<std::size_t>(i)], machine);
     const auto depths = std::count_if(units.begin(), units.end(), [](const TextureUnit& unit) {

@@ -145,6 +145,12 @@ std::string print_texture_unit(const TextureShader& shader, int unit) {
 }
 
 std::string print_texture_shader(const TextureShader& shader) {
+    if (shader.bump_source != BumpSource::dsdt)
+        throw Error(ErrorCode::bad_program, "no text can say that offsets come from rgba8 texels");
+    for (std::size_t unit = 0; unit < shader.units.size(); ++unit) {
+        if (shader.units[unit].dot_mapping >= DotMapping::nv2a_d3d)
+            fail(unit, "a dot mapping of the NV2A, which no text can say");
+    }
     shader.validate(Machine());
     const auto words = words_of(shader);
     std::string text = "!!TS1.0\n";

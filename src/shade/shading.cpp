@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <burnish/error.hpp>
+#include <utility>
 
 namespace burnish {
 
@@ -45,6 +46,8 @@ Varying::Source source_of(const ColorSlot& slot) {
             return Varying::Source::view_tangent;
         case ColorInput::n_dot_l:
             return Varying::Source::n_dot_l;
+        case ColorInput::normal:
+            return Varying::Source::normal;
         case ColorInput::lit:
             break;
     }
@@ -54,11 +57,20 @@ Varying::Source source_of(const ColorSlot& slot) {
 /// Decides where every attribute comes from and which operations bring it to the registers.
 class Planner {
   public:
-    Planner(Shading& shading, const ProgramMaterial& material, bool is_mesh, bool per_pixel)
-        : m_shading(shading), m_is_mesh(is_mesh), m_per_pixel(per_pixel) {
+    Planner(Shading& shading, const ProgramMaterial& material, const Machine& machine, bool is_mesh)
+        : m_shading(shading),
+          m_material(material),
+          m_machine(machine),
+          m_is_mesh(is_mesh),
+          m_per_pixel(machine.half_vector == HalfVector::pixel) {
         shading.varying_list.clear();
         shading.inputs.clear();
-        shading.frame_attributes = is_mesh ? kUvAttributes + (per_pixel ? kFrameAttributes : 0) : 0;
+        shading.frame_attributes =
+            is_mesh ? kUvAttributes + (m_per_pixel ? kFrameAttributes : 0) : 0;
+        m_sampling.next_attribute = kUnitAttributes;
+        m_sampling.next_register = shading.program.plane_count;
+        m_lighting.half_vector = m_lighting.light_vector = m_lighting.view_vector = -1;
+        m_lighting.n_dot_l = -1;
         m_slots = color_slots(material, shading.program);
     }
 
@@ -71,16 +83,21 @@ class Planner {
             if (varies_per_vertex(slot)) varying({source_of(slot), index_of(slot)});
         }
         plan_textures();  // adds the coordinates of raw vertices
-        if (m_is_mesh && m_per_pixel) plan_lighting(space);
+        std::vector<InputOp> encodings;
         for (const ColorSlot& slot : m_slots) {
             const int attribute = attribute_of(slot);
             if (attribute < 0) {
-                m_shading.inputs.emplace_back(ClearCtx{slot.plane});
+                encodings.emplace_back(ClearCtx{slot.plane});
             } else {
-                m_shading.inputs.emplace_back(EncodeCtx{attribute, slot.plane});
+                encodings.emplace_back(EncodeCtx{attribute, slot.plane});
             }
         }
-        m_shading.inputs.insert(m_shading.inputs.end(), m_texture_ops.begin(), m_texture_ops.end());
+        plan_lighting(space);
+        std::vector<InputOp>& inputs = m_shading.inputs;
+        inputs.insert(inputs.end(), encodings.begin(), encodings.end());
+        inputs.insert(inputs.end(), m_vector_ops.begin(), m_vector_ops.end());
+        for (PlannedUnit& unit : m_shading.units) unit.first_op += inputs.size();
+        inputs.insert(inputs.end(), m_texture_ops.begin(), m_texture_ops.end());
     }
 
   private:
@@ -114,103 +131,112 @@ class Planner {
     int attribute_of(const ColorSlot& slot) {
         if (!carries_something(slot)) return -1;
         if (varies_per_vertex(slot)) return varying({source_of(slot), index_of(slot)});
-        switch (slot.input) {
+        return lighting_plane(slot.input) + index_of(slot);
+    }
+
+    /// First attribute plane of what the lighting stage delivers, which is asked for by this.
+    int lighting_plane(ColorInput input) {
+        switch (input) {
             case ColorInput::half_tangent:
-                return m_lighting.half_vector + slot.component;
+                return m_lighting.half_vector = kLightingAttributes;
             case ColorInput::light_tangent:
-                return m_lighting.light_vector + slot.component;
+                return m_lighting.light_vector = kLightingAttributes + 3;
             case ColorInput::view_tangent:
-                return m_lighting.view_vector + slot.component;
+                return m_lighting.view_vector = kLightingAttributes + 6;
             default:
-                return m_lighting.n_dot_l;
+                return m_lighting.n_dot_l = kLightingAttributes + 9;
         }
     }
 
     void plan_lighting(const LightSpace& space) {
-        int next = m_shading.interpolated();
-        const auto planes = [&](ColorInput input, int count) {
-            const bool used = std::any_of(m_slots.begin(), m_slots.end(), [&](const ColorSlot& s) {
-                return s.input == input && carries_something(s);
-            });
-            if (!used) return -1;
-            next += count;
-            return next - count;
-        };
         m_lighting.frame = kUvAttributes;
-        m_lighting.half_vector = planes(ColorInput::half_tangent, 3);
-        m_lighting.light_vector = planes(ColorInput::light_tangent, 3);
-        m_lighting.view_vector = planes(ColorInput::view_tangent, 3);
-        m_lighting.n_dot_l = planes(ColorInput::n_dot_l, 1);
         for (int i = 0; i < 3; ++i) {
             m_lighting.light[i] = space.light[i];
             m_lighting.eye[i] = space.eye[i];
         }
         m_lighting.light_w = space.light_w;
-        if (next > m_shading.interpolated()) m_shading.inputs.emplace_back(m_lighting);
+        const bool used = m_lighting.half_vector >= 0 || m_lighting.light_vector >= 0 ||
+                          m_lighting.view_vector >= 0 || m_lighting.n_dot_l >= 0;
+        if (used) m_shading.inputs.emplace_back(m_lighting);
     }
 
-    AddressCtx address_of(const Texture& texture, int unit) {
-        const auto mode = [](Wrap wrap) {
-            return wrap == Wrap::repeat ? AddressMode::repeat : AddressMode::clamp_to_edge;
-        };
+    /// Attribute plane of a component of a unit's coordinates, -1 where it is that of (0, 0, 0, 1).
+    int coordinate(int unit, int component) {
         const int set = unit < kUnitsWithCoordinates ? unit : 0;
-        const auto coordinate = [&](int component) {
-            return varying({Varying::Source::uv, 4 * set + component});
-        };
-        AddressCtx ctx{};
-        ctx.u = m_is_mesh ? 0 : coordinate(0);
-        ctx.v = m_is_mesh ? 1 : coordinate(1);
-        ctx.q = m_is_mesh ? -1 : coordinate(3);
-        ctx.width = texture.width();
-        ctx.height = texture.height();
-        ctx.pitch = texture.pitch();
-        ctx.mode_s = mode(texture.sampler().wrap_s);
-        ctx.mode_t = mode(texture.sampler().wrap_t);
-        ctx.linear = texture.sampler().filter == Filter::linear ? 1 : 0;
-        return ctx;
-    }
-
-    static bool same(const AddressCtx& a, const AddressCtx& b) {
-        return a.u == b.u && a.v == b.v && a.q == b.q && a.width == b.width &&
-               a.height == b.height && a.pitch == b.pitch && a.mode_s == b.mode_s &&
-               a.mode_t == b.mode_t && a.linear == b.linear;
-    }
-
-    /// Addresses are made once for units in a row that share coordinates, size and sampler, and
-    /// their texels fetched together.
-    void add_fetch(const AddressCtx& address, const Texture& texture, int plane,
-                   const AddressCtx& last) {
-        const bool shares = !m_texture_ops.empty() && same(last, address);
-        if (!shares) m_texture_ops.emplace_back(address);
-        auto* fetch = shares ? &std::get<FetchCtx>(m_texture_ops.back()) : nullptr;
-        if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
-            m_texture_ops.emplace_back(FetchCtx{{}, {}, {}, 0, texture.pitch()});
-            fetch = &std::get<FetchCtx>(m_texture_ops.back());
+        const CoordinateInput input = m_material.uv[static_cast<std::size_t>(set)];
+        const bool own = input == CoordinateInput::uv || input == CoordinateInput::vertex;
+        if (!m_is_mesh) {
+            if (own) return varying({Varying::Source::uv, 4 * set + component});
+            throw Error(ErrorCode::bad_program,
+                        "raw vertices carry no normals: their coordinates can only be 'uv' or "
+                        "'vertex'");
         }
-        fetch->texels[fetch->count] = texture.texels();
-        fetch->is_signed[fetch->count] = texture.format() == TexelFormat::signed_rgba8 ? 1 : 0;
-        fetch->plane[fetch->count++] = plane;
+        if (own) return input == CoordinateInput::uv && component < kUvAttributes ? component : -1;
+        return component < 3 ? vector_component(input, component) : -1;
+    }
+
+    /// 2 x - 1 of a vector's component, which comes coded.
+    int vector_component(CoordinateInput input, int component) {
+        const auto at = std::find_if(
+            m_vectors.begin(), m_vectors.end(),
+            [&](const VectorComponent& v) { return v.input == input && v.component == component; });
+        if (at != m_vectors.end()) return at->plane;
+        const ColorSlot slot{Register::col0, component, color_input(input), -1};
+        const int from = m_per_pixel ? lighting_plane(slot.input) + component
+                                     : varying({source_of(slot), component});
+        const int to = m_sampling.next_attribute++;
+        m_vector_ops.emplace_back(AffineCtx{from, to, 2.0F, -1.0F, 1.0F});
+        m_vectors.push_back({input, component, to});
+        return to;
+    }
+    static ColorInput color_input(CoordinateInput input) {
+        switch (input) {
+            case CoordinateInput::light_tangent:
+                return ColorInput::light_tangent;
+            case CoordinateInput::view_tangent:
+                return ColorInput::view_tangent;
+            default:
+                return ColorInput::half_tangent;
+        }
     }
 
     void plan_textures() {
-        AddressCtx last{};
-        for (std::size_t unit = 0; unit < m_shading.textures.size(); ++unit) {
-            const TexturePtr& texture = m_shading.textures[unit];
-            const auto reg = static_cast<std::size_t>(tex(static_cast<int>(unit)));
-            const int plane = m_shading.program.input[reg][0];
-            if (!texture || plane < 0) continue;
-            const AddressCtx address = address_of(*texture, static_cast<int>(unit));
-            add_fetch(address, *texture, plane, last);
-            last = address;
-        }
+        UnitPlan units = plan_texture_units(
+            m_material, m_machine, m_shading.program,
+            [this](int unit, int component) { return coordinate(unit, component); }, m_sampling);
+        m_texture_ops = std::move(units.ops);
+        m_shading.units = std::move(units.units);
+        m_shading.keep_attribute = units.keep_attribute;
+        m_shading.depth_attribute = units.depth_attribute;
+        m_shading.quads = units.quads;
+        BoundProgram& program = m_shading.program;
+        program.plane_count = std::max(program.plane_count, m_sampling.next_register);
     }
 
+    struct VectorComponent {
+        CoordinateInput input;
+        int component;
+        int plane;  ///< attribute
+    };
+
     Shading& m_shading;
+    const ProgramMaterial& m_material;
+    const Machine& m_machine;
     bool m_is_mesh, m_per_pixel;
+    SamplePlan m_sampling;
     std::vector<ColorSlot> m_slots;
-    std::vector<InputOp> m_texture_ops;
+    std::vector<VectorComponent> m_vectors;
+    std::vector<InputOp> m_vector_ops, m_texture_ops;
     LightingCtx m_lighting{};
 };
+
+/// What no stage of this version does yet.
+void require_supported(const Shading& shading) {
+    if (shading.keep_attribute >= 0)
+        throw Error(ErrorCode::bad_program, "cull_fragment is not supported yet");
+    if (shading.depth_attribute >= 0)
+        throw Error(ErrorCode::bad_program, "replacing the depth is not supported yet");
+}
 
 }  // namespace
 
@@ -221,14 +247,10 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
                     fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
                                 machine.name, machine.texture_units));
     }
-    std::uint32_t enabled = 0;
-    for (std::size_t i = 0; i < material.units.size(); ++i) {
-        if (material.units[i]) enabled |= 1U << i;
-    }
-    shading.program = bind(material.combiners, machine, enabled, wanted);
+    shading.program = bind(material.combiners, machine, unit_states(material, machine), wanted);
     shading.textures = material.units;
-    Planner(shading, material, is_mesh, machine.half_vector == HalfVector::pixel)
-        .plan(shading.space);
+    Planner(shading, material, machine, is_mesh).plan(shading.space);
+    require_supported(shading);
 }
 
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out) {
@@ -259,6 +281,13 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const ClearCtx& c) const {
             std::fill_n(p.planes + c.plane * kPacketSize, kPacketSize, std::int16_t{0});
         }
+        void operator()(const CopyCtx& c) const {
+            std::copy_n(p.planes + c.from * kPacketSize, kPacketSize,
+                        p.planes + c.to * kPacketSize);
+        }
+        void operator()(const FillCtx& c) const {
+            std::fill_n(p.attributes + c.attribute * kAttributeStride, kPacketSize, c.value);
+        }
         void operator()(const LightingCtx& c) const { k.lighting(p, c); }
         void operator()(const AddressCtx& c) const { k.address(p, c); }
         void operator()(const EncodeCtx& c) const {
@@ -266,6 +295,20 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         }
         void operator()(const FetchCtx& c) const {
             (nine_bit ? k.fetch_nine_bit : k.fetch_wide)(p, c);
+        }
+        void operator()(const DecodeCtx& c) const {
+            (nine_bit ? k.decode_nine_bit : k.decode_wide)(p, c);
+        }
+        void operator()(const AffineCtx& c) const { k.affine(p, c); }
+        void operator()(const DotCtx& c) const { k.dot_product(p, c); }
+        void operator()(const HemisphereCtx& c) const { k.hemisphere(p, c); }
+        void operator()(const OffsetCtx& c) const { k.offset(p, c); }
+        void operator()(const ReflectCtx& c) const { k.reflect(p, c); }
+        void operator()(const QuotientCtx& c) const { k.quotient(p, c); }
+        void operator()(const AngleCtx& c) const { k.angle(p, c); }
+        void operator()(const CullCtx& c) const { k.cull(p, c); }
+        void operator()(const MagnitudeCtx& c) const {
+            (nine_bit ? k.dim_nine_bit : k.dim_wide)(p, c);
         }
     };
     std::visit(FeedInput{kernels, packet, numbers == NumberModel::nine_bit}, op);

@@ -3,12 +3,12 @@
 #include <burnish/scene.hpp>
 #include <cstdint>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "geometry/varyings.hpp"
 #include "kernels/kernel_table.hpp"
 #include "machine/bind.hpp"
+#include "shade/texture_units.hpp"
 
 namespace burnish {
 
@@ -18,16 +18,11 @@ inline constexpr int kUvAttributes = 2;
 inline constexpr int kFrameAttributes = 12;
 /// All that can be interpolated: the frame, or eight colours and sixteen coordinates; and `lit`.
 inline constexpr int kMaxInterpolated = 32;
-/// With the three vectors and n.l that the lighting stage adds.
-inline constexpr int kMaxAttributes = kMaxInterpolated + 10;
-
-/// A register plane that nothing feeds.
-struct ClearCtx {
-    int plane;
-};
-
-/// Fills registers of a packet before the program runs.
-using InputOp = std::variant<ClearCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx>;
+/// The three vectors and n.l that the lighting stage adds behind them.
+inline constexpr int kLightingAttributes = kMaxInterpolated;
+/// What texture units compute on the way to their coordinates lies behind these.
+inline constexpr int kUnitAttributes = kLightingAttributes + 10;
+inline constexpr int kMaxAttributes = kUnitAttributes + 118;
 
 /// How one object's fragments get their colour: what its triangles interpolate, what fills the
 /// registers, the program.
@@ -39,6 +34,10 @@ struct Shading {
     std::vector<Varying> varying_list;  ///< the attributes after those of the frames
     std::vector<float> varyings;        ///< their values, vertex by vertex
     std::vector<InputOp> inputs;
+    std::vector<PlannedUnit> units;  ///< first_op counts `inputs`
+    int keep_attribute = -1;         ///< > 0 where the fragment lives, or -1: everywhere
+    int depth_attribute = -1;        ///< the fragment's own window depth, or -1
+    bool quads = false;              ///< texels with mipmaps at coordinates that no triangle knows
     BoundProgram program;
     std::vector<TexturePtr> textures;  ///< keeps the texels alive
 

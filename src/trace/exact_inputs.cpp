@@ -62,10 +62,67 @@ void ExactInputs::feed(const InputOp& op) {
         void operator()(const ClearCtx& c) const { plane(c.plane) = 0.0; }
         void operator()(const LightingCtx& c) const { to.light(c); }
         void operator()(const EncodeCtx& c) const {
-            plane(c.plane) = clamp_to_one(to.attribute(c.attribute));
+            plane(c.plane) = clamp_to_one(attribute(c.attribute));
         }
         void operator()(const AddressCtx& c) const { to.locate(c); }
         void operator()(const FetchCtx& c) const { to.fetch(c); }
+        void operator()(const CopyCtx& c) const { plane(c.to) = plane(c.from); }
+        void operator()(const FillCtx& c) const {
+            attribute(c.attribute) = static_cast<double>(c.value);
+        }
+        void operator()(const DecodeCtx& c) const {
+            attribute(c.attribute) = to.number(plane(c.plane), c.reading);
+        }
+        void operator()(const AffineCtx& c) const {
+            attribute(c.to) =
+                (attribute(c.from) * static_cast<double>(c.scale) + static_cast<double>(c.offset)) /
+                static_cast<double>(c.divisor);
+        }
+        void operator()(const DotCtx& c) const {
+            attribute(c.to) = glm::dot(vector(c.a), vector(c.b));
+        }
+        void operator()(const HemisphereCtx& c) const {
+            const double x = attribute(c.x), y = attribute(c.y);
+            attribute(c.to) = std::sqrt(std::max(1.0 - x * x - y * y, 0.0));
+        }
+        void operator()(const OffsetCtx& c) const {
+            const double q = c.q < 0 ? 1.0 : attribute(c.q);
+            const double ds = attribute(c.ds), dt = attribute(c.dt);
+            const auto m = [&](int k) { return static_cast<double>(c.m[k]); };
+            attribute(c.to) = attribute(c.s) / q + m(0) * ds + m(2) * dt;
+            attribute(c.to + 1) = attribute(c.t) / q + m(1) * ds + m(3) * dt;
+        }
+        void operator()(const ReflectCtx& c) const {
+            const glm::dvec3 n = vector(c.n), e = vector(c.e);
+            const glm::dvec3 r = 2.0 * n * glm::dot(n, e) / glm::dot(n, n) - e;
+            for (int k = 0; k < 3; ++k) attribute(c.to + k) = r[k];
+        }
+        void operator()(const QuotientCtx& c) const {
+            attribute(c.to) = attribute(c.a) / attribute(c.b);
+        }
+        void operator()(const AngleCtx& c) const {
+            const double d = attribute(c.a) - attribute(c.b);
+            attribute(c.to) = d - std::floor(d);
+        }
+        void operator()(const CullCtx& c) const {
+            bool kept = c.also < 0 || attribute(c.also) > 0.0;
+            for (int k = 0; k < 4; ++k) {
+                const double x = attribute(c.coordinate[k]);
+                kept = kept && (c.less[k] != 0 ? x < 0.0 : x >= 0.0);
+            }
+            attribute(c.keep) = kept ? 1.0 : 0.0;
+        }
+        void operator()(const MagnitudeCtx& c) const {
+            double f =
+                static_cast<double>(c.bias) + static_cast<double>(c.scale) * plane(c.magnitude);
+            if (c.clamp_factor != 0) f = clamp_to_one(f);
+            for (int k = 0; k < 3; ++k) plane(c.to + k) = std::min(plane(c.from + k) * f, 1.0);
+            plane(c.to + 3) = plane(c.from + 3);
+        }
+        double& attribute(int k) const { return to.m_attributes[static_cast<std::size_t>(k)]; }
+        glm::dvec3 vector(const int (&k)[3]) const {
+            return {attribute(k[0]), attribute(k[1]), attribute(k[2])};
+        }
     };
     std::visit(Feed{*this}, op);
 }
@@ -96,6 +153,27 @@ void ExactInputs::light(const LightingCtx& ctx) {
     }
 }
 
+double ExactInputs::number(double color, Reading reading) {
+    const double byte = color * 255.0;
+    const double n = byte >= 127.5 ? byte - 256.0 : byte;
+    switch (reading) {
+        case Reading::unsigned_texel:
+        case Reading::signed_texel:
+            return color;
+        case Reading::expanded:
+            return 2.0 * std::max(color, 0.0) - 1.0;
+        case Reading::two_complement:
+            return n / 128.0;
+        case Reading::nv2a_d3d:
+            return (byte - 128.0) / 127.0;
+        case Reading::nv2a_gl:
+            return (n + 0.5) / 127.5;
+        case Reading::nv2a_signed:
+            return n / 127.0;
+    }
+    return color;
+}
+
 void ExactInputs::locate(const AddressCtx& ctx) {
     const double q = ctx.q < 0 ? 1.0 : attribute(ctx.q);
     m_address = ctx;
@@ -121,10 +199,9 @@ void ExactInputs::fetch(const FetchCtx& ctx) {
 }
 
 std::size_t unit_of_plane(const Shading& shading, int plane) {
-    std::size_t unit = 0;
-    while (shading.program.input[static_cast<std::size_t>(Register::tex0) + unit][0] != plane)
-        ++unit;
-    return unit;
+    const auto at = std::find_if(shading.units.begin(), shading.units.end(),
+                                 [&](const PlannedUnit& u) { return u.registers == plane; });
+    return static_cast<std::size_t>(at->unit);
 }
 
 }  // namespace burnish

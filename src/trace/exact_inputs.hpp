@@ -28,6 +28,9 @@ class ExactInputs {
     [[nodiscard]] double v() const { return m_v; }
 
   private:
+    /// What a colour, as texels deliver it, stands for.
+    static double number(double color, Reading reading);
+
     void light(const LightingCtx& ctx);
     void locate(const AddressCtx& ctx);
     void fetch(const FetchCtx& ctx);

@@ -22,6 +22,8 @@ std::string name_of(const Varying& v) {
             return "n_dot_l";
         case Varying::Source::lit:
             return "lit";
+        case Varying::Source::normal:
+            return "vertex_normal";
     }
     return "unknown";
 }

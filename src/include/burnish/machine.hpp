@@ -42,6 +42,12 @@ enum class Halving {
 /// Whether the final combiner rounds A B + (1 - A) C once or each product, in nine bits.
 enum class LerpRounding { once, each };
 
+/// The factor by which the offset operations with scale dim the texel.
+enum class MagnitudeFactor {
+    unclamped,  ///< as captures of the NV2A show; the product stops at 1
+    clamped,    ///< to [0, 1], as NV_texture_shader has it
+};
+
 /// What texture units can do before the combiners (burnish/texture_shader.hpp).
 enum class TextureOperations {
     plain,  ///< fetches by interpolated coordinates from 1D, 2D, rectangle and cube map textures
@@ -58,6 +64,7 @@ struct Machine {
     bool stage_constants = true;  ///< const0 and const1 may differ from stage to stage
     bool stage_fetches = true;    ///< texture fetches between general stages
     TextureOperations texture_operations = TextureOperations::all;
+    MagnitudeFactor magnitude_factor = MagnitudeFactor::clamped;
     NumberModel numbers = NumberModel::wide;
     // Choices of the nine-bit model; the defaults are those of the NV2A.
     ProductRounding product_rounding = ProductRounding::nearest;

@@ -6,6 +6,7 @@
 #include <burnish/machine.hpp>
 #include <burnish/mesh.hpp>
 #include <burnish/texture.hpp>
+#include <burnish/texture_shader.hpp>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -49,12 +50,26 @@ enum class ColorInput {
     view_tangent,
     n_dot_l,  ///< max(0, normal . light), in every component
     lit,      ///< max(0, normal . light) * lit_tint + lit_base, always per vertex
+    normal,   ///< the vertex normal in object space, x/2 + 1/2, always per vertex
+};
+
+/// What an interpolator carries as the coordinates (s, t, r, q) of a texture unit.
+enum class CoordinateInput {
+    uv,            ///< a mesh's (u, v, 0, 1), the vertex's own of raw vertices
+    half_tangent,  ///< half vector in the tangent frame, not coded, q = 1
+    light_tangent,
+    view_tangent,
+    vertex,  ///< the vertex's own of raw vertices; (0, 0, 0, 1) for a mesh
 };
 
 /// A pipeline given as a program instead of a reflectance model.
 struct ProgramMaterial {
     CombinerProgram combiners;
     std::vector<TexturePtr> units;  ///< texture unit i; null = disabled, reads (0, 0, 0, 1)
+    /// What units 0 .. 3 do; nothing: every unit with a texture samples it at its coordinates. With
+    /// a shader a unit without a result reads (0, 0, 0, 0).
+    std::optional<TextureShader> texture_shader;
+    std::array<CoordinateInput, 4> uv{};  ///< of units 0 .. 3; further units have those of unit 0
     ColorInput col0_rgb = ColorInput::vertex;
     ColorInput col0_a = ColorInput::vertex;
     ColorInput col1_rgb = ColorInput::vertex;

@@ -3,9 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <burnish/machine.hpp>
+#include <burnish/texture.hpp>
 
 /// What the texture units do before the combiners run, as data. Semantics: NV_texture_shader,
 /// NV_texture_shader2, NV_texture_shader3, and one mode that only the NV2A has.
@@ -59,7 +63,7 @@ enum class TextureOperation : std::uint8_t {
     dot_product_depth_replace,               ///< window depth = p[i-1] / p[i]
     dot_product_affine_depth_replace,        ///< window depth = p[i]
     // NV2A only.
-    texture_brdf,  ///< T3D(sigma of unit i-2, sigma of unit i-1, difference of their phi)
+    texture_brdf,  ///< T3D(lo[i-2], lo[i-1], hi[i-2] - hi[i-1] modulo 1): HILO texels (phi, sigma)
 };
 inline constexpr int kTextureOperationCount = static_cast<int>(TextureOperation::texture_brdf) + 1;
 
@@ -72,11 +76,26 @@ bool reads_previous(TextureOperation operation);
 /// Whether it gives the fragment another depth, which one unit may do.
 bool replaces_depth(TextureOperation operation);
 
-/// How a dot product reads an unsigned previous texel; signed texels are taken as they are.
+/// How a dot product reads the previous texel. The first three are OpenGL's, for unsigned texels;
+/// signed and HILO texels are then taken as their format says. The others are codes of the NV2A,
+/// for nine-bit machines with texture shaders; x is the byte, n the same in two's complement.
 enum class DotMapping : std::uint8_t {
-    unsigned_identity,
-    expand,             ///< 2c - 1
-    force_blue_to_one,  ///< (r, g, 1) (NV_texture_shader3)
+    unsigned_identity,       ///< hardware code 0
+    expand,                  ///< 2c - 1
+    force_blue_to_one,       ///< (r, g, 1) (NV_texture_shader3)
+    nv2a_d3d,                ///< code 1: (x - 128) / 127
+    nv2a_gl,                 ///< code 2: (n + 1/2) / 127.5
+    nv2a_signed,             ///< code 3: n / 127
+    nv2a_hilo,               ///< code 4: (hi, lo, 1) of an unsigned HILO texel
+    nv2a_hemisphere_d3d,     ///< code 5: hi, lo as code 1 in 16 bits, sqrt(1 - hi^2 - lo^2)
+    nv2a_hemisphere_gl,      ///< code 6: likewise by code 2, of a signed HILO texel
+    nv2a_hemisphere_signed,  ///< code 7: likewise by code 3, of a signed HILO texel
+};
+
+/// What the offset operations take from the texel of another unit.
+enum class BumpSource : std::uint8_t {
+    dsdt,   ///< ds, dt and the magnitude of a DSDT texture, as OpenGL has it
+    rgba8,  ///< NV2A: blue and green of any 8-bit texel, two's complement / 128; magnitude: red
 };
 
 enum class CullTest : std::uint8_t {
@@ -103,13 +122,29 @@ inline constexpr int kTextureShaderUnits = 4;
 
 struct TextureShader {
     std::array<TextureUnit, kTextureShaderUnits> units;
+    BumpSource bump_source = BumpSource::dsdt;
 
     /// Throws Error{bad_program} for what `machine` cannot run: operations that it lacks, units
     /// beyond its number, a previous unit that is not an earlier one, depth replaced twice. Rules
-    /// that depend on the formats of textures are not checked here.
+    /// that depend on textures are those of check_consistency.
     void validate(const Machine& machine) const;
 
     friend bool operator==(const TextureShader&, const TextureShader&) = default;
 };
+
+/// Why a unit is off.
+struct UnitProblem {
+    int unit;
+    std::string reason;  ///< "offset_2d reads unit 0, which has a colour, expected ..."
+};
+
+/// The units that break a rule of NV_texture_shader and hence act as `none`, in order: one whose
+/// texture is missing, has another target or a format that the operation or its reader cannot use;
+/// one that reads a unit without a texel or one that is off itself; a dot product at a wrong place.
+/// @param shader    valid for `machine`
+/// @param textures  of units 0, 1, ...; missing and null ones are none
+std::vector<UnitProblem> check_consistency(const TextureShader& shader,
+                                           std::span<const TexturePtr> textures,
+                                           const Machine& machine);
 
 }  // namespace burnish

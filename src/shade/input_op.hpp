@@ -1,0 +1,30 @@
+#pragma once
+
+#include <variant>
+
+#include "kernels/kernel_table.hpp"
+
+namespace burnish {
+
+/// A register plane that nothing feeds.
+struct ClearCtx {
+    int plane;
+};
+
+/// A register plane that is another one, too.
+struct CopyCtx {
+    int from, to;
+};
+
+/// An attribute plane that is the same everywhere.
+struct FillCtx {
+    int attribute;
+    float value;
+};
+
+/// Brings a packet's attributes to its registers, before the program runs or between its stages.
+using InputOp = std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx,
+                             FetchCtx, DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx,
+                             ReflectCtx, QuotientCtx, AngleCtx, CullCtx, MagnitudeCtx>;
+
+}  // namespace burnish

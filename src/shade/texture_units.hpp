@@ -1,0 +1,43 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "machine/bind.hpp"
+#include "shade/sample.hpp"
+
+namespace burnish {
+
+/// What the texture units hand to the program, known before it is bound: bit i is unit i's.
+/// Throws Error{bad_program} for a texture shader that `machine` cannot run.
+UnitStates unit_states(const ProgramMaterial& material, const Machine& machine);
+
+/// Attribute plane of component 0 .. 3 (s, t, r, q) of a unit's coordinates; -1 where it is that of
+/// (0, 0, 0, 1) everywhere.
+using CoordinatePlane = std::function<int(int unit, int component)>;
+
+/// Where a unit's texel is, before any dimming.
+struct PlannedUnit {
+    int unit;
+    std::size_t first_op;  ///< its operations reach to the next unit's first
+    int registers = -1;    ///< first of four register planes, or -1
+    int values = -1;       ///< first of two attribute planes of a HILO texel, or -1
+};
+
+/// How the units get their results.
+struct UnitPlan {
+    std::vector<InputOp> ops;
+    std::vector<PlannedUnit> units;
+    int keep_attribute = -1;   ///< > 0 where the fragment lives, or -1: everywhere
+    int depth_attribute = -1;  ///< the fragment's own window depth, or -1
+    bool quads = false;        ///< texels with mipmaps at coordinates that no triangle knows
+};
+
+/// Operations for every unit that `program` or a later unit reads.
+UnitPlan plan_texture_units(const ProgramMaterial& material, const Machine& machine,
+                            const BoundProgram& program, const CoordinatePlane& coordinates,
+                            SamplePlan& plan);
+
+}  // namespace burnish
