@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
-
-#include "machine/fetches.hpp"
 
 namespace burnish {
 
@@ -22,9 +21,9 @@ struct OperandValues {
     Mapping mapping = Mapping::unsigned_identity;
 };
 
-/// One portion on values instead of planes.
+/// One portion, or one fetch, on values instead of planes.
 struct Operation {
-    int stage = 0;
+    int step = 0;  ///< the portions of a stage read before any of them writes
     OperandValues a, b, c, d;
     ProductKind ab = ProductKind::none, cd = ProductKind::none;
     ThirdKind third = ThirdKind::none;
@@ -33,6 +32,10 @@ struct Operation {
     Value mux = kNothing;
     std::array<Value, 3> ab_out{kNothing, kNothing, kNothing};
     std::array<Value, 3> cd_out = ab_out, third_out = ab_out;
+    bool coding = false;  ///< no part of the program
+    const StageFetch* fetch = nullptr;
+    std::array<Value, 3> coordinates{kNothing, kNothing, kNothing};
+    Components fetched{kNothing, kNothing, kNothing, kNothing};
 };
 
 bool same_everywhere(const OperandValues& o) {
@@ -50,14 +53,14 @@ class Binder {
         : m_program(program),
           m_machine(machine),
           m_numbers(machine.numbers),
-          m_stage_count(static_cast<int>(program.stages.size())) {
+          m_textured(units.textured) {
         m_one = m_numbers == NumberModel::nine_bit ? 255 : 16384;
         for (auto& components : m_bound.input) components.fill(-1);
         set_initial_registers(units);
     }
 
     BoundProgram bind(const Wanted& wanted) {
-        for (std::size_t s = 0; s < m_program.stages.size(); ++s) add_stage(static_cast<int>(s));
+        for (const GeneralStage& stage : m_program.stages) add_stage(stage);
         if (wanted.reg) {
             if (wanted.coded) add_coding(*wanted.reg);
             m_shown = at(wanted.coded ? Register::spare0 : *wanted.reg);
@@ -138,9 +141,9 @@ class Binder {
         return out;
     }
 
-    Operation operation(const Portion& p, bool alpha, int stage) {
+    Operation operation(const Portion& p, bool alpha) {
         Operation op;
-        op.stage = stage;
+        op.step = m_step;
         op.source = &p;
         op.a = read(p.a, alpha);
         op.b = read(p.b, alpha);
@@ -180,17 +183,38 @@ class Binder {
         if (op.source->cd_blue_to_alpha) at(op.source->cd_out)[3] = op.cd_out[2];
     }
 
-    void add_stage(int s) {
-        const GeneralStage& stage = m_program.stages[static_cast<std::size_t>(s)];
+    void add_fetch(const StageFetch& fetch) {
+        const int unit = static_cast<int>(fetch.destination) - static_cast<int>(Register::tex0);
+        if ((m_textured >> unit & 1) == 0) {
+            const Value zero = constant(0);
+            at(fetch.destination) = {zero, zero, zero, constant(m_one)};
+            return;
+        }
+        Operation op;
+        op.step = m_step++;
+        op.fetch = &fetch;
+        for (int i = 0; i < coordinate_count(fetch.target); ++i) {
+            const auto index = static_cast<std::size_t>(i);
+            const FetchCoordinate& from = fetch.coordinates[index];
+            op.coordinates[index] = at(from.reg)[from.component];
+        }
+        for (Value& value : op.fetched) value = m_value_count++;
+        at(fetch.destination) = op.fetched;
+        m_operations.push_back(op);
+    }
+
+    void add_stage(const GeneralStage& stage) {
         at(Register::const0) = constant(stage.const0.value_or(m_program.const0));
         at(Register::const1) = constant(stage.const1.value_or(m_program.const1));
+        for (const StageFetch& fetch : stage.fetches) add_fetch(fetch);
         std::optional<Operation> rgb, alpha;
-        if (stage.rgb.writes()) rgb = operation(stage.rgb, false, s);
-        if (stage.alpha.writes()) alpha = operation(stage.alpha, true, s);
+        if (stage.rgb.writes()) rgb = operation(stage.rgb, false);
+        if (stage.alpha.writes()) alpha = operation(stage.alpha, true);
         if (rgb) write(*rgb, false);
         if (alpha) write(*alpha, true);
         if (rgb) m_operations.push_back(*rgb);
         if (alpha) m_operations.push_back(*alpha);
+        ++m_step;
     }
 
     // --- a register instead of the final combiner
@@ -206,8 +230,10 @@ class Binder {
         m_coding[1].b = one;
         m_coding[1].ab_out = Register::spare0;
         for (const Portion& portion : m_coding) {
-            const Operation rgb = operation(portion, false, m_stage_count);
-            const Operation alpha = operation(portion, true, m_stage_count++);
+            Operation rgb = operation(portion, false);
+            Operation alpha = operation(portion, true);
+            rgb.coding = alpha.coding = true;
+            ++m_step;
             write(rgb, false);
             write(alpha, true);
             m_operations.push_back(rgb);
@@ -238,6 +264,12 @@ class Binder {
 
     template <class F>
     static void for_each_read(const Operation& op, F&& f) {
+        if (op.fetch != nullptr) {
+            for (const Value v : op.coordinates) {
+                if (v != kNothing) f(v);
+            }
+            return;
+        }
         const auto operand = [&](const OperandValues& o, ProductKind product) {
             const int used = product == ProductKind::dot ? 3 : op.components;
             for (int c = 0; c < used; ++c) f(o.value[static_cast<std::size_t>(c)]);
@@ -280,6 +312,15 @@ class Binder {
         for_each_final_read(mark);
         std::vector<Operation> kept;
         for (auto op = m_operations.rbegin(); op != m_operations.rend(); ++op) {
+            if (op->fetch != nullptr) {
+                const bool read = std::any_of(op->fetched.begin(), op->fetched.end(), [&](Value v) {
+                    return live[static_cast<std::size_t>(v)];
+                });
+                if (!read) continue;
+                for_each_read(*op, mark);
+                kept.push_back(*op);
+                continue;
+            }
             const bool ab = clean(op->ab_out), cd = clean(op->cd_out), third = clean(op->third_out);
             if (!ab && !cd && !third) continue;
             if (!third) {
@@ -305,22 +346,23 @@ class Binder {
     void allocate() {
         m_plane.assign(static_cast<std::size_t>(m_value_count), -1);
         m_last_use.assign(static_cast<std::size_t>(m_value_count), -1);
-        const int end = m_stage_count;
         for (const Operation& op : m_operations) {
-            for_each_read(op, [&](Value v) { m_last_use[static_cast<std::size_t>(v)] = op.stage; });
+            for_each_read(op, [&](Value v) { m_last_use[static_cast<std::size_t>(v)] = op.step; });
         }
-        for_each_final_read([&](Value v) { m_last_use[static_cast<std::size_t>(v)] = end; });
+        for_each_final_read([&](Value v) { m_last_use[static_cast<std::size_t>(v)] = m_step; });
         place_constants();
         m_trash = m_bound.plane_count++;
         place_inputs();
         for (std::size_t i = 0; i < m_operations.size();) {
-            const int stage = m_operations[i].stage;
+            const int step = m_operations[i].step;
             const std::size_t first = i;
-            for (; i < m_operations.size() && m_operations[i].stage == stage; ++i) {
-                emit(m_operations[i]);
+            for (; i < m_operations.size() && m_operations[i].step == step; ++i) {
+                m_operations[i].fetch != nullptr ? emit_fetch(m_operations[i])
+                                                 : emit(m_operations[i]);
             }
             for (std::size_t k = first; k < i; ++k) {
-                for_each_read(m_operations[k], [&](Value v) { release(v, stage); });
+                for_each_read(m_operations[k], [&](Value v) { release(v, step); });
+                for (const Value v : m_operations[k].fetched) release_unread(v);
             }
         }
         m_shown ? emit_shown() : emit_final();
@@ -332,7 +374,7 @@ class Binder {
             if (m_last_use[static_cast<std::size_t>(value)] < 0) continue;
             m_plane[static_cast<std::size_t>(value)] = m_bound.plane_count++;
             m_bound.constants.push_back(static_cast<std::int16_t>(code));
-            m_last_use[static_cast<std::size_t>(value)] = m_stage_count + 1;
+            m_last_use[static_cast<std::size_t>(value)] = m_step + 1;
         }
     }
 
@@ -359,9 +401,29 @@ class Binder {
         return plane;
     }
 
-    void release(Value v, int stage) {
+    /// Four planes in a row.
+    int take_row() {
+        std::sort(m_free.begin(), m_free.end());
+        for (std::size_t i = 0; i + 3 < m_free.size(); ++i) {
+            const int first = m_free[i];
+            if (m_free[i + 3] != first + 3) continue;
+            const auto at = m_free.begin() + static_cast<std::ptrdiff_t>(i);
+            m_free.erase(at, at + 4);
+            return first;
+        }
+        m_bound.plane_count += 4;
+        return m_bound.plane_count - 4;
+    }
+
+    /// What a fetch brings and nobody reads.
+    void release_unread(Value v) {
+        if (v == kNothing || m_last_use[static_cast<std::size_t>(v)] >= 0) return;
+        m_free.push_back(m_plane[static_cast<std::size_t>(v)]);
+    }
+
+    void release(Value v, int step) {
         int& last = m_last_use[static_cast<std::size_t>(v)];
-        if (last != stage) return;
+        if (last != step) return;
         m_free.push_back(m_plane[static_cast<std::size_t>(v)]);
         last = -1;  // once, however often it was read
     }
@@ -416,9 +478,8 @@ class Binder {
         ctx.third = op.third;
         ctx.scale = static_cast<OutputScale>(op.source->scale);
         // The code of a shown register is no work of the machine: it is the same on all of them.
-        const bool coding = op.stage >= static_cast<int>(m_program.stages.size());
-        ctx.rounding = coding ? Rounding::nearest : rounding();
-        ctx.halve_down = !coding && m_machine.halving == Halving::down ? 1 : 0;
+        ctx.rounding = op.coding ? Rounding::nearest : rounding();
+        ctx.halve_down = !op.coding && m_machine.halving == Halving::down ? 1 : 0;
         ctx.mux_lsb = m_program.mux_bit == MuxBit::lsb ? 1 : 0;
         ctx.bias_minus_half = op.source->bias_minus_half ? 1 : 0;
         ctx.wide = op.source->wide ? 1 : 0;
@@ -430,6 +491,23 @@ class Binder {
         place_outputs(op.cd_out, ctx.cd_out);
         place_outputs(op.third_out, ctx.third_out);
         m_bound.portions.push_back(ctx);
+    }
+
+    void emit_fetch(const Operation& op) {
+        BoundFetch fetch;
+        fetch.before = m_bound.portions.size();
+        fetch.unit = static_cast<int>(op.fetch->destination) - static_cast<int>(Register::tex0);
+        fetch.target = op.fetch->target;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (op.coordinates[i] == kNothing) continue;
+            fetch.plane[i] = m_plane[static_cast<std::size_t>(op.coordinates[i])];
+            fetch.expand[i] = op.fetch->coordinates[i].expand;
+        }
+        fetch.out = take_row();
+        for (std::size_t c = 0; c < 4; ++c) {
+            m_plane[static_cast<std::size_t>(op.fetched[c])] = fetch.out + static_cast<int>(c);
+        }
+        m_bound.fetches.push_back(fetch);
     }
 
     void emit_final() {
@@ -470,7 +548,8 @@ class Binder {
     const CombinerProgram& m_program;
     const Machine& m_machine;
     NumberModel m_numbers;
-    int m_stage_count;
+    std::uint32_t m_textured;
+    int m_step = 0;  ///< fetches and stages so far
     int m_one = 0;
     std::array<Components, kRegisterCount> m_registers;
     int m_value_count = 0;
@@ -498,7 +577,6 @@ bool BoundProgram::reads(Register r) const {
 BoundProgram bind(const CombinerProgram& program, const Machine& machine, const UnitStates& units,
                   const Wanted& wanted) {
     program.validate(machine);
-    require_no_fetches(program);
     return Binder(program, machine, units).bind(wanted);
 }
 
@@ -510,12 +588,22 @@ void load_constants(const BoundProgram& program, Packet& packet) {
     }
 }
 
-void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet) {
+void run_portions(const BoundProgram& program, const KernelTable& kernels, Packet& packet,
+                  std::size_t first, std::size_t last) {
     const bool nine_bit = program.numbers == NumberModel::nine_bit;
     const auto portion = nine_bit ? kernels.portion_nine_bit : kernels.portion_wide;
-    for (const PortionCtx& ctx : program.portions) portion(packet, ctx);
+    for (std::size_t i = first; i < last; ++i) portion(packet, program.portions[i]);
+}
+
+void run_final(const BoundProgram& program, const KernelTable& kernels, Packet& packet) {
     if (!program.has_final) return;
+    const bool nine_bit = program.numbers == NumberModel::nine_bit;
     (nine_bit ? kernels.final_nine_bit : kernels.final_wide)(packet, program.final_combiner);
+}
+
+void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet) {
+    run_portions(program, kernels, packet, 0, program.portions.size());
+    run_final(program, kernels, packet);
 }
 
 }  // namespace burnish

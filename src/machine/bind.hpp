@@ -3,6 +3,7 @@
 #include <array>
 #include <burnish/combiner.hpp>
 #include <burnish/machine.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -13,6 +14,17 @@
 namespace burnish {
 
 inline constexpr int kRegisterCount = static_cast<int>(Register::discard) + 1;
+
+/// A texture fetch between portions: coordinates are the numbers of register planes, see
+/// Reading::unsigned_texel and, where `expand` says so, Reading::expanded.
+struct BoundFetch {
+    std::size_t before = 0;  ///< the portion in front of which it runs, or how many there are
+    int unit = 0;            ///< whose texture is read
+    FetchTarget target = FetchTarget::table_2d;
+    std::array<int, 3> plane{};  ///< the first coordinate_count(target) count
+    std::array<bool, 3> expand{};
+    int out = 0;  ///< first of four planes that get the texel
+};
 
 /// A combiner program as a list of block operations on register planes.
 ///
@@ -30,6 +42,7 @@ struct BoundProgram {
     /// whichever of them are read.
     std::array<std::array<int, 4>, kRegisterCount> input;
     std::vector<PortionCtx> portions;
+    std::vector<BoundFetch> fetches;  ///< in the order in which they run
     bool has_final = true;
     FinalCtx final_combiner{};
     std::array<std::int16_t, 4> result{};  ///< planes of r, g, b, a
@@ -41,6 +54,8 @@ struct BoundProgram {
 struct UnitStates {
     std::uint32_t enabled = 0;  ///< delivers texels
     std::uint32_t black = 0;    ///< not enabled and reads (0, 0, 0, 0); else it reads (0, 0, 0, 1)
+    std::uint32_t textured =
+        0;  ///< fetches between stages find a texture; others bring (0, 0, 0, 1)
 };
 
 /// What is wanted of a program; the inputs that it asks for follow from that.
@@ -51,15 +66,21 @@ struct Wanted {
     bool coded = false;  ///< the register as x/2 + 1/2, 0 .. 1, for frames without signs
 };
 
-/// Throws Error{bad_program} for what `machine` cannot run, and for fetches between stages, which
-/// are not supported yet.
+/// Throws Error{bad_program} for what `machine` cannot run.
 BoundProgram bind(const CombinerProgram& program, const Machine& machine, const UnitStates& units,
                   const Wanted& wanted = {});
 
 /// Fills the constant planes of a packet; needed once per packet memory and program.
 void load_constants(const BoundProgram& program, Packet& packet);
 
-/// Runs the general stages and, if it is asked for, the final combiner.
+/// Runs portions first .. last - 1.
+void run_portions(const BoundProgram& program, const KernelTable& kernels, Packet& packet,
+                  std::size_t first, std::size_t last);
+
+/// Runs the final combiner if it is asked for.
+void run_final(const BoundProgram& program, const KernelTable& kernels, Packet& packet);
+
+/// Runs a program without fetches.
 void run(const BoundProgram& program, const KernelTable& kernels, Packet& packet);
 
 }  // namespace burnish

@@ -21,8 +21,9 @@ int coordinate_count(FetchTarget target) {
 void require_no_fetches(const CombinerProgram& program) {
     for (std::size_t i = 0; i < program.stages.size(); ++i) {
         if (!program.stages[i].fetches.empty())
-            throw Error(ErrorCode::bad_program,
-                        fmt::format("stage {}: fetches between stages are not supported yet", i));
+            throw Error(
+                ErrorCode::bad_program,
+                fmt::format("stage {}: fetches, but there are no textures to fetch from", i));
     }
 }
 

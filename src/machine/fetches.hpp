@@ -4,8 +4,8 @@
 
 namespace burnish {
 
-/// Throws Error{bad_program} for a program that fetches between general stages: nothing runs such
-/// fetches yet.
+/// Throws Error{bad_program} for a program that fetches between general stages, where nothing can
+/// serve the fetches.
 void require_no_fetches(const CombinerProgram& program);
 
 }  // namespace burnish

@@ -23,6 +23,7 @@ int round_quotient(std::int64_t x, int y) {
 /// Register codes of the two number models.
 struct CodeNumbers {
     using Value = int;
+    using Coordinate = float;
     int one, half;
     int low, high;  ///< range of a register
     bool wide;
@@ -60,6 +61,12 @@ struct CodeNumbers {
         return from_product(ab + rest);
     }
     [[nodiscard]] static bool is_odd(int x) { return x % 2 != 0; }
+    /// The number of a code, or twice what of it is positive minus 1.
+    [[nodiscard]] float coordinate(int e, bool expand) const {
+        const float middle = static_cast<float>(one) * 0.5F;
+        if (expand) return (static_cast<float>(std::max(e, 0)) - middle) / middle;
+        return static_cast<float>(e) / static_cast<float>(one);
+    }
     [[nodiscard]] int constant(float x) const {
         return color_code(x, wide ? NumberModel::wide : NumberModel::nine_bit);
     }
@@ -68,6 +75,7 @@ struct CodeNumbers {
 /// The real numbers that the codes stand for.
 struct RealNumbers {
     using Value = double;
+    using Coordinate = double;
     double one, half;
     double low, high;
     bool wide;
@@ -80,6 +88,9 @@ struct RealNumbers {
     /// The nearest nine-bit code is.
     [[nodiscard]] static bool is_odd(double x) {
         return std::fmod(std::floor(x * 255.0 + 0.5), 2.0) != 0.0;
+    }
+    [[nodiscard]] static double coordinate(double e, bool expand) {
+        return expand ? 2.0 * std::max(e, 0.0) - 1.0 : e;
     }
     [[nodiscard]] static double constant(float x) {
         return x > 0.0F ? std::min(static_cast<double>(x), 1.0) : 0.0;
@@ -269,9 +280,24 @@ Components<N> run_final(const FinalCombiner& final, Registers<typename N::Value>
     return result;
 }
 
-template <class N, class Value = typename N::Value>
+/// One after the other: each may read what an earlier one brought.
+template <class N, class Fetch>
+void run_fetches(const GeneralStage& stage, Registers<typename N::Value>& registers,
+                 const Fetch& fetch, const N& n) {
+    for (const StageFetch& f : stage.fetches) {
+        std::array<typename N::Coordinate, 3> at{};
+        for (int i = 0; i < coordinate_count(f.target); ++i) {
+            const auto index = static_cast<std::size_t>(i);
+            const FetchCoordinate& from = f.coordinates[index];
+            at[index] = n.coordinate(registers[from.reg][from.component], from.expand);
+        }
+        registers[f.destination] = fetch(f, at);
+    }
+}
+
+template <class N, class Fetch, class Value = typename N::Value>
 Components<N> run_program(const CombinerProgram& program, const Registers<Value>& inputs,
-                          std::vector<Registers<Value>>* trace, const N& n) {
+                          std::vector<Registers<Value>>* trace, const Fetch& fetch, const N& n) {
     Registers<Value> registers = initial_registers(program, inputs, n);
     const Components<N> global0 = registers[Register::const0];
     const Components<N> global1 = registers[Register::const1];
@@ -283,6 +309,7 @@ Components<N> run_program(const CombinerProgram& program, const Registers<Value>
     for (const GeneralStage& stage : program.stages) {
         registers[Register::const0] = constant(stage.const0, global0);
         registers[Register::const1] = constant(stage.const1, global1);
+        run_fetches(stage, registers, fetch, n);
         const Registers<Value> before = registers;
         run_portion(stage.rgb, program.mux_bit, before, registers, 0, 2, n);
         run_portion(stage.alpha, program.mux_bit, before, registers, 3, 3, n);
@@ -310,21 +337,23 @@ int color_code(float x, NumberModel numbers) {
 }
 
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
-                    const RegisterFile& inputs, std::vector<RegisterFile>* trace) {
-    require_no_fetches(program);
+                    const RegisterFile& inputs, std::vector<RegisterFile>* trace,
+                    const FetchCodes& fetch) {
+    if (!fetch) require_no_fetches(program);
     CodeNumbers numbers = machine.numbers == NumberModel::wide ? kWide : kNineBit;
     numbers.product_rounding = machine.product_rounding;
     numbers.expand_rule = machine.expand;
     numbers.halving = machine.halving;
     numbers.lerp_rounding = machine.lerp_rounding;
-    return run_program(program, inputs, trace, numbers);
+    return run_program(program, inputs, trace, fetch, numbers);
 }
 
 Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
-                            const RealRegisters& inputs, std::vector<RealRegisters>* trace) {
-    require_no_fetches(program);
+                            const RealRegisters& inputs, std::vector<RealRegisters>* trace,
+                            const FetchReals& fetch) {
+    if (!fetch) require_no_fetches(program);
     const bool wide = machine.numbers == NumberModel::wide;
-    return run_program(program, inputs, trace, wide ? kWideReals : kNineBitReals);
+    return run_program(program, inputs, trace, fetch, wide ? kWideReals : kNineBitReals);
 }
 
 }  // namespace burnish

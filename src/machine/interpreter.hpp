@@ -4,6 +4,7 @@
 #include <burnish/combiner.hpp>
 #include <burnish/machine.hpp>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 /// The combiner machine for one fragment, straight from the rules and as plain as they are: the
@@ -36,6 +37,11 @@ int color_code(float x, NumberModel numbers);
 /// The code of 1: 255 or 16384.
 int code_of_one(NumberModel numbers);
 
+/// The texel that a fetch between stages brings, from its coordinates: numbers, not codes. The
+/// first coordinate_count(target) count, the others are 0.
+using FetchCodes = std::function<Codes(const StageFetch& fetch, const std::array<float, 3>& at)>;
+using FetchReals = std::function<Reals(const StageFetch& fetch, const std::array<double, 3>& at)>;
+
 /// What the final combiner delivers, 0 .. 255 or 0 .. 16384.
 /// @param program  valid for `machine` (CombinerProgram::validate)
 /// @param inputs   col0, col1 and tex0 .. tex15 within the register's range; an unused unit reads
@@ -44,14 +50,17 @@ int code_of_one(NumberModel numbers);
 /// @param trace    gets the registers before the first stage, after each stage (with the constants
 ///                 of that stage) and as the final combiner saw them, that is with the global
 ///                 constants, color_sum and final_product; stages + 2 in all.
-/// Throws Error{bad_program} for fetches between stages, which are not supported yet.
+/// @param fetch    serves the fetches between stages.
+/// Throws Error{bad_program} for such fetches if there is no `fetch`.
 Codes run_combiners(const CombinerProgram& program, const Machine& machine,
-                    const RegisterFile& inputs, std::vector<RegisterFile>* trace = nullptr);
+                    const RegisterFile& inputs, std::vector<RegisterFile>* trace = nullptr,
+                    const FetchCodes& fetch = nullptr);
 
 /// The same program in exact arithmetic (double precision): nothing is rounded, 1/2 is 1/2, and
 /// values stop where the machine's registers and operands stop.
 Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
                             const RealRegisters& inputs,
-                            std::vector<RealRegisters>* trace = nullptr);
+                            std::vector<RealRegisters>* trace = nullptr,
+                            const FetchReals& fetch = nullptr);
 
 }  // namespace burnish

@@ -209,8 +209,24 @@ class Planner {
         m_shading.keep_attribute = units.keep_attribute;
         m_shading.depth_attribute = units.depth_attribute;
         m_shading.quads = units.quads;
+        plan_stage_fetches();
+    }
+
+    /// What they take for themselves is free again after each of them.
+    void plan_stage_fetches() {
         BoundProgram& program = m_shading.program;
-        program.plane_count = std::max(program.plane_count, m_sampling.next_register);
+        int planes = m_sampling.next_register;
+        m_shading.stage_fetches.clear();
+        for (const BoundFetch& fetch : program.fetches) {
+            SamplePlan plan;
+            plan.next_attribute = m_sampling.next_attribute;
+            plan.next_register = program.plane_count;
+            const Texture& texture = *m_material.units[static_cast<std::size_t>(fetch.unit)];
+            m_shading.stage_fetches.push_back(
+                {fetch.before, plan_stage_fetch(fetch, texture, plan)});
+            planes = std::max(planes, plan.next_register);
+        }
+        program.plane_count = std::max(program.plane_count, planes);
     }
 
     struct VectorComponent {
@@ -314,6 +330,18 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
     std::visit(FeedInput{kernels, packet, numbers == NumberModel::nine_bit}, op);
 }
 
+void run_program(const Shading& shading, const KernelTable& kernels, Packet& packet) {
+    const BoundProgram& program = shading.program;
+    std::size_t done = 0;
+    for (const StageSampling& fetch : shading.stage_fetches) {
+        run_portions(program, kernels, packet, done, fetch.before);
+        done = fetch.before;
+        for (const InputOp& op : fetch.ops) feed_input(op, program.numbers, kernels, packet);
+    }
+    run_portions(program, kernels, packet, done, program.portions.size());
+    run_final(program, kernels, packet);
+}
+
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                   StoreFormat format, void* tile, Packet& packet) {
     const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
@@ -321,7 +349,7 @@ void shade_packet(const Shading& shading, const KernelTable& kernels, const Attr
     for (const InputOp& op : shading.inputs) {
         feed_input(op, shading.program.numbers, kernels, packet);
     }
-    run(shading.program, kernels, packet);
+    run_program(shading, kernels, packet);
     StoreCtx store{};
     std::copy_n(shading.program.result.begin(), 4, store.plane);
     store.format = format;

@@ -24,6 +24,12 @@ inline constexpr int kLightingAttributes = kMaxInterpolated;
 inline constexpr int kUnitAttributes = kLightingAttributes + 10;
 inline constexpr int kMaxAttributes = kUnitAttributes + 118;
 
+/// The input operations of a fetch between portions.
+struct StageSampling {
+    std::size_t before;  ///< the portion in front of which they run
+    std::vector<InputOp> ops;
+};
+
 /// How one object's fragments get their colour: what its triangles interpolate, what fills the
 /// registers, the program.
 struct Shading {
@@ -39,7 +45,8 @@ struct Shading {
     int depth_attribute = -1;        ///< the fragment's own window depth, or -1
     bool quads = false;              ///< texels with mipmaps at coordinates that no triangle knows
     BoundProgram program;
-    std::vector<TexturePtr> textures;  ///< keeps the texels alive
+    std::vector<StageSampling> stage_fetches;  ///< of program.fetches, in their order
+    std::vector<TexturePtr> textures;          ///< keeps the texels alive
 
     [[nodiscard]] int interpolated() const {
         return frame_attributes + static_cast<int>(varying_list.size());
@@ -56,6 +63,9 @@ void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out)
 
 /// One input operation on a packet.
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels, Packet& packet);
+
+/// General stages with the fetches between them, and the final combiner.
+void run_program(const Shading& shading, const KernelTable& kernels, Packet& packet);
 
 /// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
 /// constant planes are in place.

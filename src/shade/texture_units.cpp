@@ -1,7 +1,10 @@
 #include "shade/texture_units.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <burnish/error.hpp>
 #include <optional>
 #include <utility>
 
@@ -44,6 +47,22 @@ bool is_hilo(FormatClass format) {
 /// Whether a texel of the format is a colour for the combiners; others read (0, 0, 0, 0).
 bool has_color(FormatClass format) {
     return !is_hilo(format) && format != FormatClass::dsdt && format != FormatClass::dsdt_mag;
+}
+
+TextureOperation operation_of(FetchTarget target) {
+    switch (target) {
+        case FetchTarget::table_1d:
+            return Op::texture_1d;
+        case FetchTarget::table_2d:
+            return Op::texture_2d;
+        case FetchTarget::table_3d:
+            return Op::texture_3d;
+        case FetchTarget::table_cube_map:
+            return Op::texture_cube_map;
+        case FetchTarget::table_rectangle:
+            return Op::texture_rectangle;
+    }
+    return Op::none;
 }
 
 /// Plans the units one after the other.
@@ -443,6 +462,9 @@ class UnitPlanner {
 
 UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) {
     UnitStates states;
+    for (std::size_t i = 0; i < material.units.size(); ++i) {
+        if (material.units[i]) states.textured |= 1U << i;
+    }
     if (material.texture_shader) material.texture_shader->validate(machine);
     const auto units = active_units(material, machine);
     for (std::size_t i = 0; i < units.size(); ++i) {
@@ -458,6 +480,38 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
         }
     }
     return states;
+}
+
+std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& texture,
+                                      SamplePlan& plan) {
+    const Op equivalent = plain_operation(target_of(texture));
+    if (operation_of(fetch.target) != equivalent)
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("a fetch to tex{} does {}, its texture is for {}", fetch.unit,
+                                texture_operation_name(operation_of(fetch.target)),
+                                texture_operation_name(equivalent)));
+    std::vector<InputOp> ops;
+    const FormatClass format = format_class(texture.format());
+    if (!has_color(format)) {
+        for (int c = 0; c < 4; ++c) ops.emplace_back(ClearCtx{fetch.out + c});
+        return ops;
+    }
+    std::array<int, 3> at{-1, -1, -1};
+    for (int i = 0; i < coordinate_count(fetch.target); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        at[k] = plan.next_attribute++;
+        ops.emplace_back(DecodeCtx{fetch.plane[k], at[k],
+                                   fetch.expand[k] ? Reading::expanded : Reading::unsigned_texel});
+    }
+    const bool intensity = format == FormatClass::dsdt_mag_intensity;
+    const int out =
+        intensity ? std::exchange(plan.next_register, plan.next_register + 4) : fetch.out;
+    plan_sample(texture, {at[0], at[1], at[2], -1, false}, {out, -1}, plan, ops);
+    if (intensity) {
+        for (int c = 0; c < 3; ++c) ops.emplace_back(ClearCtx{fetch.out + c});
+        ops.emplace_back(CopyCtx{out + 3, fetch.out + 3});
+    }
+    return ops;
 }
 
 UnitPlan plan_texture_units(const ProgramMaterial& material, const Machine& machine,

@@ -40,4 +40,9 @@ UnitPlan plan_texture_units(const ProgramMaterial& material, const Machine& mach
                             const BoundProgram& program, const CoordinatePlane& coordinates,
                             SamplePlan& plan);
 
+/// Operations that bring what `fetch` asks for. Throws Error{bad_program} where the texture has
+/// another target.
+std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& texture,
+                                      SamplePlan& plan);
+
 }  // namespace burnish
