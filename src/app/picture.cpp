@@ -4,6 +4,7 @@
 
 #include <burnish/error.hpp>
 #include <cstdio>
+#include <set>
 
 namespace burnish::app {
 namespace {
@@ -63,6 +64,21 @@ void apply_camera(const CameraOptions& options, Camera& camera) {
     if (options.elevation != 0.0F) camera = raised(camera, options.elevation);
 }
 
+/// Texture units that are off, once per material.
+void print_unit_problems(const Scene& scene) {
+    std::set<const Material*> seen;
+    for (const Object& object : scene.objects) {
+        const Material* material = object.material.get();
+        if (material == nullptr || !seen.insert(material).second) continue;
+        if (!material->program || !material->program->texture_shader) continue;
+        const ProgramMaterial& program = *material->program;
+        for (const UnitProblem& problem :
+             check_consistency(*program.texture_shader, program.units, scene.machine))
+            fmt::print(stderr, "burnish: material '{}', texture unit {} is off: {}\n",
+                       material->name, problem.unit, problem.reason);
+    }
+}
+
 }  // namespace
 
 Camera turned(const Camera& camera, float degrees) {
@@ -92,6 +108,7 @@ Scene load_picture(const PictureOptions& options) {
     if (!options.lights.empty()) scene.lights = options.lights;
     scene.background = options.background.value_or(scene.background);
     apply_camera(options.camera, scene.camera);
+    if (!options.quiet) print_unit_problems(scene);
     return std::move(loaded.scene);
 }
 

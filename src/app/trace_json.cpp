@@ -60,6 +60,12 @@ std::string interpolant_json(const TracedInterpolant& i) {
                        json_string(i.components), json_members(i.numbers));
 }
 
+std::string unit_json(const TracedUnit& u) {
+    return fmt::format("{{\"unit\": {}, \"text\": {}, \"problem\": {}, \"numbers\": {}}}", u.unit,
+                       json_string(u.text), u.problem.empty() ? "null" : json_string(u.problem),
+                       json_list(u.numbers, interpolant_json));
+}
+
 std::string fetch_json(const TracedFetch& f) {
     return fmt::format(
         "{{\"unit\": {}, \"width\": {}, \"height\": {}, \"filter\": \"{}\", \"u\": {}, \"v\": {}, "
@@ -87,11 +93,12 @@ std::string fragment_json(const TracedFragment& f) {
     return fmt::format(
         "{{\"object\": {}, \"material\": {}, \"triangle\": {}, \"clipped\": {}, \"vertices\": {}, "
         "\"barycentrics\": {}, \"depth\": {}, \"one_over_w\": {}, \"interpolants\": {}, "
-        "\"fetches\": {}, \"stages\": {}, \"codes\": {}, {}}}",
+        "\"units\": {}, \"fetches\": {}, \"stages\": {}, \"codes\": {}, {}}}",
         f.object, json_string(f.material), f.triangle, f.clipped, json_list(f.vertices),
         json_list(f.barycentrics), json(f.depth), json(f.one_over_w),
-        json_list(f.interpolants, interpolant_json), json_list(f.fetches, fetch_json),
-        json_list(f.stages, stage_json), json_list(f.codes), json_members(f.color));
+        json_list(f.interpolants, interpolant_json), json_list(f.units, unit_json),
+        json_list(f.fetches, fetch_json), json_list(f.stages, stage_json), json_list(f.codes),
+        json_members(f.color));
 }
 
 }  // namespace

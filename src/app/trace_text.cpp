@@ -77,10 +77,9 @@ std::string triangle_text(const TracedFragment& f) {
     return text;
 }
 
-std::string interpolant_text(const std::vector<TracedInterpolant>& list) {
+std::string interpolant_text(const std::string& title, const std::vector<TracedInterpolant>& list) {
     if (list.empty()) return "";
-    std::string text =
-        fmt::format("{:<20}{:>14}{:>14}{:>11}\n", "interpolants", "value", "exact", "error");
+    std::string text = fmt::format("{:<20}{:>14}{:>14}{:>11}\n", title, "value", "exact", "error");
     for (const TracedInterpolant& group : list) {
         for (std::size_t k = 0; k < group.numbers.size(); ++k) {
             const TracedNumber& n = group.numbers[k];
@@ -90,6 +89,12 @@ std::string interpolant_text(const std::vector<TracedInterpolant>& list) {
         }
     }
     return text;
+}
+
+std::string unit_text(const TracedUnit& unit) {
+    std::string text = fmt::format("unit {}: {}\n", unit.unit, unit.text);
+    if (!unit.problem.empty()) text += fmt::format("  off: {}\n", unit.problem);
+    return text + interpolant_text("", unit.numbers);
 }
 
 const char* wrap_name(Wrap wrap) {
@@ -140,7 +145,9 @@ std::string trace_text(const PixelTrace& trace, const Scene& scene) {
         text += "background\n";
     } else {
         const TracedFragment& f = *trace.fragment;
-        text += triangle_text(f) + "\n" + interpolant_text(f.interpolants) + "\n";
+        text += triangle_text(f) + "\n" + interpolant_text("interpolants", f.interpolants) + "\n";
+        for (const TracedUnit& unit : f.units) text += unit_text(unit);
+        if (!f.units.empty()) text += "\n";
         for (const TracedFetch& fetch : f.fetches) text += fetch_text(fetch, table) + "\n";
         for (const TracedStage& stage : f.stages) text += table.stage(stage) + "\n";
         text += table.heading("result") + table.row("  color", f.codes, f.color, kAll);

@@ -29,23 +29,23 @@ std::string_view target_name(TextureTarget target) {
     return "unknown";
 }
 
-std::string_view class_name(FormatClass format) {
+std::string_view class_name(TexelClass format) {
     switch (format) {
-        case FormatClass::unsigned_rgba:
+        case TexelClass::unsigned_rgba:
             return "unsigned colours";
-        case FormatClass::signed_rgba:
+        case TexelClass::signed_rgba:
             return "signed colours";
-        case FormatClass::mixed:
+        case TexelClass::mixed:
             return "colours with and without sign";
-        case FormatClass::hilo:
+        case TexelClass::hilo:
             return "unsigned HILO";
-        case FormatClass::signed_hilo:
+        case TexelClass::signed_hilo:
             return "signed HILO";
-        case FormatClass::dsdt:
+        case TexelClass::dsdt:
             return "DSDT";
-        case FormatClass::dsdt_mag:
+        case TexelClass::dsdt_mag:
             return "DSDT with magnitude";
-        case FormatClass::dsdt_mag_intensity:
+        case TexelClass::dsdt_mag_intensity:
             return "DSDT with magnitude and intensity";
     }
     return "unknown";
@@ -56,7 +56,7 @@ struct Readable {
     std::string_view name;
     unsigned classes;
 
-    [[nodiscard]] bool has(FormatClass format) const {
+    [[nodiscard]] bool has(TexelClass format) const {
         return (classes >> static_cast<unsigned>(format) & 1U) != 0;
     }
 };
@@ -66,8 +66,8 @@ constexpr unsigned any_of(Classes... classes) {
     return ((1U << static_cast<unsigned>(classes)) | ...);
 }
 
-constexpr auto kUnsigned = FormatClass::unsigned_rgba;
-constexpr auto kSigned = FormatClass::signed_rgba;
+constexpr auto kUnsigned = TexelClass::unsigned_rgba;
+constexpr auto kSigned = TexelClass::signed_rgba;
 
 /// Unit by unit: a unit that is off counts as off for those behind it.
 class Checker {
@@ -129,7 +129,7 @@ class Checker {
     }
 
     /// The class of what a unit with a texel delivers.
-    [[nodiscard]] FormatClass delivered(int i) const {
+    [[nodiscard]] TexelClass delivered(int i) const {
         if (!sampled_target(operation(i))) return kUnsigned;  // pass-through
         return format_class(texture(i)->format());
     }
@@ -142,22 +142,22 @@ class Checker {
             case Op::offset_projective_2d:
             case Op::offset_projective_rectangle:
                 if (bytes) return {"colours", any_of(kUnsigned, kSigned)};
-                return {"DSDT", any_of(FormatClass::dsdt, FormatClass::dsdt_mag,
-                                       FormatClass::dsdt_mag_intensity)};
+                return {"DSDT", any_of(TexelClass::dsdt, TexelClass::dsdt_mag,
+                                       TexelClass::dsdt_mag_intensity)};
             case Op::offset_2d_scale:
             case Op::offset_rectangle_scale:
             case Op::offset_projective_2d_scale:
             case Op::offset_projective_rectangle_scale:
                 if (bytes) return {"unsigned colours", any_of(kUnsigned)};
                 return {"DSDT with magnitude",
-                        any_of(FormatClass::dsdt_mag, FormatClass::dsdt_mag_intensity)};
+                        any_of(TexelClass::dsdt_mag, TexelClass::dsdt_mag_intensity)};
             case Op::offset_hilo_2d:
             case Op::offset_hilo_rectangle:
             case Op::offset_hilo_projective_2d:
             case Op::offset_hilo_projective_rectangle:
-                return {"signed HILO", any_of(FormatClass::signed_hilo)};
+                return {"signed HILO", any_of(TexelClass::signed_hilo)};
             case Op::dependent_hilo:
-                return {"unsigned HILO", any_of(FormatClass::hilo)};
+                return {"unsigned HILO", any_of(TexelClass::hilo)};
             case Op::dependent_ar:
             case Op::dependent_gb:
             case Op::dependent_rgb_3d:
@@ -165,7 +165,7 @@ class Checker {
                 return {"unsigned colours", any_of(kUnsigned)};
             default:
                 return {"colours of one sign or HILO",
-                        any_of(kUnsigned, kSigned, FormatClass::hilo, FormatClass::signed_hilo)};
+                        any_of(kUnsigned, kSigned, TexelClass::hilo, TexelClass::signed_hilo)};
         }
     }
 
@@ -175,7 +175,7 @@ class Checker {
                                texture_operation_name(operation(from)));
         if (!m_consistent.at(index(from))) return fmt::format("reads unit {}, which is off", from);
         const Readable wanted = readable(i);
-        const FormatClass found = delivered(from);
+        const TexelClass found = delivered(from);
         if (wanted.has(found)) return std::nullopt;
         return fmt::format("reads unit {}, whose texels are {}, expected {}", from,
                            class_name(found), wanted.name);
@@ -183,8 +183,8 @@ class Checker {
 
     /// The codes of the NV2A say what the previous texel is.
     [[nodiscard]] Problem mapping_problem(int i) const {
-        const FormatClass found = delivered(unit(i).previous);
-        const auto expect = [&](FormatClass wanted) -> Problem {
+        const TexelClass found = delivered(unit(i).previous);
+        const auto expect = [&](TexelClass wanted) -> Problem {
             if (found == wanted) return std::nullopt;
             return fmt::format(
                 "reads unit {} by a dot mapping of the NV2A, whose texels are {}, "
@@ -198,10 +198,10 @@ class Checker {
                 return expect(kUnsigned);
             case DotMapping::nv2a_hilo:
             case DotMapping::nv2a_hemisphere_d3d:
-                return expect(FormatClass::hilo);
+                return expect(TexelClass::hilo);
             case DotMapping::nv2a_hemisphere_gl:
             case DotMapping::nv2a_hemisphere_signed:
-                return expect(FormatClass::signed_hilo);
+                return expect(TexelClass::signed_hilo);
             default:
                 return std::nullopt;
         }
@@ -244,8 +244,8 @@ class Checker {
             if (i < k || !has_texel(operation(i - k)) || !m_consistent.at(index(i - k)))
                 return fmt::format("in unit {}, expected HILO texels in units {} and {}", i, i - 2,
                                    i - 1);
-            const FormatClass found = delivered(i - k);
-            if (found != FormatClass::hilo && found != FormatClass::signed_hilo)
+            const TexelClass found = delivered(i - k);
+            if (found != TexelClass::hilo && found != TexelClass::signed_hilo)
                 return fmt::format("reads unit {}, whose texels are {}, expected HILO", i - k,
                                    class_name(found));
         }

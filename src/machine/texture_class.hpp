@@ -6,7 +6,7 @@ namespace burnish {
 
 enum class TextureTarget { one_d, two_d, rectangle, cube, three_d };
 
-enum class FormatClass {
+enum class TexelClass {
     unsigned_rgba,
     signed_rgba,
     mixed,
@@ -17,9 +17,9 @@ enum class FormatClass {
     dsdt_mag_intensity,
 };
 
-inline FormatClass format_class(TexelFormat format) {
-    return format == TexelFormat::signed_rgba8 ? FormatClass::signed_rgba
-                                               : FormatClass::unsigned_rgba;
+inline TexelClass format_class(TexelFormat format) {
+    return format == TexelFormat::signed_rgba8 ? TexelClass::signed_rgba
+                                               : TexelClass::unsigned_rgba;
 }
 
 inline TextureTarget target_of(const Texture& /*texture*/) {

@@ -263,7 +263,8 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
                     fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
                                 machine.name, machine.texture_units));
     }
-    shading.program = bind(material.combiners, machine, unit_states(material, machine), wanted);
+    shading.unit_states = unit_states(material, machine);
+    shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
     shading.textures = material.units;
     Planner(shading, material, machine, is_mesh).plan(shading.space);
     require_supported(shading);

@@ -40,6 +40,7 @@ struct Shading {
     std::vector<Varying> varying_list;  ///< the attributes after those of the frames
     std::vector<float> varyings;        ///< their values, vertex by vertex
     std::vector<InputOp> inputs;
+    UnitStates unit_states;
     std::vector<PlannedUnit> units;  ///< first_op counts `inputs`
     int keep_attribute = -1;         ///< > 0 where the fragment lives, or -1: everywhere
     int depth_attribute = -1;        ///< the fragment's own window depth, or -1

@@ -40,13 +40,13 @@ std::array<TextureUnit, kMostUnits> active_units(const ProgramMaterial& material
     return units;
 }
 
-bool is_hilo(FormatClass format) {
-    return format == FormatClass::hilo || format == FormatClass::signed_hilo;
+bool is_hilo(TexelClass format) {
+    return format == TexelClass::hilo || format == TexelClass::signed_hilo;
 }
 
 /// Whether a texel of the format is a colour for the combiners; others read (0, 0, 0, 0).
-bool has_color(FormatClass format) {
-    return !is_hilo(format) && format != FormatClass::dsdt && format != FormatClass::dsdt_mag;
+bool has_color(TexelClass format) {
+    return !is_hilo(format) && format != TexelClass::dsdt && format != TexelClass::dsdt_mag;
 }
 
 TextureOperation operation_of(FetchTarget target) {
@@ -95,7 +95,7 @@ class UnitPlanner {
   private:
     /// What a unit leaves for later ones, before any dimming.
     struct Texel {
-        FormatClass format = FormatClass::unsigned_rgba;
+        TexelClass format = TexelClass::unsigned_rgba;
         int registers = -1;  ///< first of four register planes
         int values = -1;     ///< HILO: first of two attribute planes
     };
@@ -179,7 +179,7 @@ class UnitPlanner {
     // --- texels
 
     /// Where unit i's texel goes before it is dimmed or stripped.
-    Texel place_texel(int i, FormatClass format) {
+    Texel place_texel(int i, TexelClass format) {
         Texel texel{.format = format};
         if (is_hilo(format)) {
             texel.values = take_attributes(2);
@@ -187,8 +187,8 @@ class UnitPlanner {
         }
         const bool kept = is_dimmed(operation(i)) && m_read_later.at(index(i));
         const bool as_it_is = program_planes(i) >= 0 && !kept &&
-                              (format == FormatClass::unsigned_rgba ||
-                               format == FormatClass::signed_rgba || format == FormatClass::mixed);
+                              (format == TexelClass::unsigned_rgba ||
+                               format == TexelClass::signed_rgba || format == TexelClass::mixed);
         texel.registers = as_it_is ? program_planes(i) : take_registers();
         return texel;
     }
@@ -200,7 +200,7 @@ class UnitPlanner {
         const int out = program_planes(i);
         if (out < 0 || !has_color(texel.format)) return;
         int color = texel.registers;
-        if (texel.format == FormatClass::dsdt_mag_intensity) {
+        if (texel.format == TexelClass::dsdt_mag_intensity) {
             for (int c = 0; c < 3; ++c) add(ClearCtx{out + c});
             add(CopyCtx{color + 3, out + 3});
             color = out;
@@ -291,7 +291,7 @@ class UnitPlanner {
             ctx.ds = from.values;
             ctx.dt = from.values + 1;
         } else if (m_bump_source == BumpSource::rgba8) {
-            const Reading reading = from.format == FormatClass::signed_rgba
+            const Reading reading = from.format == TexelClass::signed_rgba
                                         ? Reading::signed_texel
                                         : Reading::two_complement;
             ctx.ds = number(from.registers + 2, reading);
@@ -346,8 +346,8 @@ class UnitPlanner {
         return {x, y, number(texel.registers + 2, reading)};
     }
 
-    static Reading reading_of(FormatClass format, DotMapping mapping) {
-        if (format == FormatClass::signed_rgba) return Reading::signed_texel;
+    static Reading reading_of(TexelClass format, DotMapping mapping) {
+        if (format == TexelClass::signed_rgba) return Reading::signed_texel;
         switch (mapping) {
             case DotMapping::expand:
                 return Reading::expanded;
@@ -382,7 +382,7 @@ class UnitPlanner {
                 map(32768.0F, 0.0F, 32767.0F);
                 break;
             default:
-                if (texel.format == FormatClass::hilo) return {hi, lo, constant(1.0F)};
+                if (texel.format == TexelClass::hilo) return {hi, lo, constant(1.0F)};
         }
         const int z = take_attributes(1);
         add(HemisphereCtx{hi, lo, z});
@@ -491,7 +491,7 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
                                 texture_operation_name(operation_of(fetch.target)),
                                 texture_operation_name(equivalent)));
     std::vector<InputOp> ops;
-    const FormatClass format = format_class(texture.format());
+    const TexelClass format = format_class(texture.format());
     if (!has_color(format)) {
         for (int c = 0; c < 4; ++c) ops.emplace_back(ClearCtx{fetch.out + c});
         return ops;
@@ -503,7 +503,7 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
         ops.emplace_back(DecodeCtx{fetch.plane[k], at[k],
                                    fetch.expand[k] ? Reading::expanded : Reading::unsigned_texel});
     }
-    const bool intensity = format == FormatClass::dsdt_mag_intensity;
+    const bool intensity = format == TexelClass::dsdt_mag_intensity;
     const int out =
         intensity ? std::exchange(plan.next_register, plan.next_register + 4) : fetch.out;
     plan_sample(texture, {at[0], at[1], at[2], -1, false}, {out, -1}, plan, ops);

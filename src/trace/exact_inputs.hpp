@@ -21,6 +21,7 @@ class ExactInputs {
     [[nodiscard]] double attribute(int k) const {
         return m_attributes[static_cast<std::size_t>(k)];
     }
+    void set_attribute(int k, double value) { m_attributes[static_cast<std::size_t>(k)] = value; }
     /// What register plane k stands for.
     [[nodiscard]] double plane(int k) const { return m_planes[static_cast<std::size_t>(k)]; }
     /// Coordinates of the last address, after the division by q.

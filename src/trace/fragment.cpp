@@ -1,11 +1,14 @@
 #include "trace/fragment.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "shade/attributes.hpp"
 #include "trace/exact_inputs.hpp"
 #include "trace/interpolants.hpp"
 #include "trace/texel_bytes.hpp"
+#include "trace/unit_numbers.hpp"
 
 namespace burnish {
 
@@ -34,6 +37,9 @@ class LonePacket {
     Packet& packet() { return m_packet; }
     [[nodiscard]] float attribute(int k) const {
         return m_attributes[static_cast<std::size_t>(k) * kAttributeStride];
+    }
+    void set_attribute(int k, float value) {
+        m_attributes[static_cast<std::size_t>(k) * kAttributeStride] = value;
     }
     [[nodiscard]] int plane(int k) const {
         return m_planes[static_cast<std::size_t>(k) * kPacketSize];
@@ -71,9 +77,11 @@ class InputTracer {
         : m_shading(shading), m_packet(packet), m_exact(exact) {}
 
     void run(TracedFragment& out) {
-        for (const InputOp& op : m_shading.inputs) {
+        for (std::size_t i = 0; i < m_shading.inputs.size(); ++i) {
+            const InputOp& op = m_shading.inputs[i];
             feed_input(op, m_shading.program.numbers, table_reference(), m_packet.packet());
             m_exact.feed(op);
+            add_unit_numbers(i, out);
             if (const auto* address = std::get_if<AddressCtx>(&op)) m_address = *address;
             if (const auto* fetch = std::get_if<FetchCtx>(&op)) {
                 for (int k = 0; k < fetch->count; ++k) add_fetch(*fetch, k, out);
@@ -89,7 +97,8 @@ class InputTracer {
         }
     }
 
-    /// Registers before the program; units that are off read (0, 0, 0, 1).
+    /// Registers before the program; units that are off read (0, 0, 0, 1), those without a result
+    /// (0, 0, 0, 0).
     [[nodiscard]] FragmentInputs registers() const {
         FragmentInputs result;
         for (auto& filled : result.filled.values) filled.fill(true);
@@ -98,9 +107,8 @@ class InputTracer {
             for (std::size_t c = 0; c < 4; ++c) take(reg, c, result);
         }
         for (int unit = 0; unit < 16; ++unit) {
-            const auto index = static_cast<std::size_t>(unit);
-            const bool enabled = index < m_shading.textures.size() && m_shading.textures[index];
-            if (!enabled) {
+            if ((m_shading.unit_states.black >> unit & 1) != 0) continue;
+            if ((m_shading.unit_states.enabled >> unit & 1) == 0) {
                 result.codes[tex(unit)][3] = code_of_one(program.numbers);
                 result.exact[tex(unit)][3] = 1.0;
                 continue;
@@ -112,6 +120,16 @@ class InputTracer {
     }
 
   private:
+    void add_unit_numbers(std::size_t op, TracedFragment& out) const {
+        const int unit = unit_of_operation(m_shading, op);
+        const auto numbers = unit_numbers(m_shading.inputs[op], m_shading);
+        if (!numbers || unit < 0 || unit >= static_cast<int>(out.units.size())) return;
+        TracedInterpolant traced{numbers->name, numbers->components, {}};
+        for (const int plane : numbers->planes)
+            traced.numbers.push_back(number(m_packet.attribute(plane), m_exact.attribute(plane)));
+        out.units[static_cast<std::size_t>(unit)].numbers.push_back(std::move(traced));
+    }
+
     void take(Register reg, std::size_t c, FragmentInputs& to) const {
         const int plane = m_shading.program.input[static_cast<std::size_t>(reg)][c];
         to.filled[reg][c] = plane >= 0;
@@ -157,18 +175,98 @@ class InputTracer {
     AddressCtx m_address{};
 };
 
+/// One fragment, followed on both kinds of numbers.
+struct TwoPackets {
+    TwoPackets(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
+               std::int32_t x, std::int32_t y, const Barycentrics& place)
+        : packet(shading, mesh, triangle, x, y), exact(shading, triangle, place) {}
+    LonePacket packet;  // points into itself: not to be moved
+    ExactInputs exact;
+};
+
+/// Serves the fetches between stages, in their order, with the operations that the renderer runs.
+/// Coordinates come decoded.
+class StageFetches {
+  public:
+    StageFetches(const Shading& shading, std::shared_ptr<TwoPackets> fragment)
+        : m_shading(&shading), m_fragment(std::move(fragment)) {}
+
+    /// The number of the fetch's operations; -1 for a unit without a texture.
+    int next(const StageFetch& fetch) {
+        const int unit = static_cast<int>(fetch.destination) - static_cast<int>(Register::tex0);
+        return (m_shading->unit_states.textured >> unit & 1) == 0 ? -1 : m_next++;
+    }
+    [[nodiscard]] const std::vector<InputOp>& ops(int fetch) const {
+        return m_shading->stage_fetches[static_cast<std::size_t>(fetch)].ops;
+    }
+    [[nodiscard]] int plane(int fetch, std::size_t c) const {
+        return m_shading->program.fetches[static_cast<std::size_t>(fetch)].out +
+               static_cast<int>(c);
+    }
+    [[nodiscard]] const Shading& shading() const { return *m_shading; }
+    [[nodiscard]] TwoPackets& fragment() const { return *m_fragment; }
+
+  private:
+    const Shading* m_shading;
+    std::shared_ptr<TwoPackets> m_fragment;
+    int m_next = 0;
+};
+
+FetchCodes fetch_codes(StageFetches fetches) {
+    return [fetches](const StageFetch& fetch, const std::array<float, 3>& at) mutable {
+        const NumberModel numbers = fetches.shading().program.numbers;
+        const int number = fetches.next(fetch);
+        if (number < 0) return Codes{0, 0, 0, code_of_one(numbers)};
+        LonePacket& packet = fetches.fragment().packet;
+        std::size_t coordinate = 0;
+        for (const InputOp& op : fetches.ops(number)) {
+            if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
+                packet.set_attribute(decode->attribute, at.at(coordinate++));
+            } else {
+                feed_input(op, numbers, table_reference(), packet.packet());
+            }
+        }
+        Codes codes{};
+        for (std::size_t c = 0; c < 4; ++c) codes[c] = packet.plane(fetches.plane(number, c));
+        return codes;
+    };
+}
+
+FetchReals fetch_reals(StageFetches fetches) {
+    return [fetches](const StageFetch& fetch, const std::array<double, 3>& at) mutable {
+        const int number = fetches.next(fetch);
+        if (number < 0) return Reals{0.0, 0.0, 0.0, 1.0};
+        ExactInputs& exact = fetches.fragment().exact;
+        std::size_t coordinate = 0;
+        for (const InputOp& op : fetches.ops(number)) {
+            if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
+                exact.set_attribute(decode->attribute, at.at(coordinate++));
+            } else {
+                exact.feed(op);
+            }
+        }
+        Reals reals{};
+        for (std::size_t c = 0; c < 4; ++c) reals[c] = exact.plane(fetches.plane(number, c));
+        return reals;
+    };
+}
+
 }  // namespace
 
 FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
                             std::int32_t y, TracedFragment& out) {
     const Barycentrics place = barycentrics(draw.mesh(), triangle, x, y);
-    LonePacket packet(draw.shading, draw.mesh(), triangle, x, y);
-    ExactInputs exact(draw.shading, triangle, place);
+    const auto fragment =
+        std::make_shared<TwoPackets>(draw.shading, draw.mesh(), triangle, x, y, place);
+    LonePacket& packet = fragment->packet;
     out.barycentrics = place.weight;
     out.one_over_w = number(packet.one_over_w(), place.one_over_w);
-    InputTracer tracer(draw.shading, packet, exact);
+    InputTracer tracer(draw.shading, packet, fragment->exact);
     tracer.run(out);
-    return tracer.registers();
+    FragmentInputs inputs = tracer.registers();
+    inputs.fetch = fetch_codes({draw.shading, fragment});
+    inputs.fetch_exactly = fetch_reals({draw.shading, fragment});
+    return inputs;
 }
 
 }  // namespace burnish

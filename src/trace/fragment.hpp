@@ -13,6 +13,10 @@ struct FragmentInputs {
     RegisterFile codes;
     RealRegisters exact;
     Registers<bool> filled;  ///< false: an input that nothing reads and hence nothing feeds
+    // Fetches between stages: to be asked in the order of the program, once; they refer to the
+    // draw.
+    FetchCodes fetch;
+    FetchReals fetch_exactly;
 };
 
 /// Interpolates at pixel (x, y) of the window and feeds the registers: by the scalar kernels, and

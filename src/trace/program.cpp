@@ -17,6 +17,11 @@ Registers<bool> named_registers(const CombinerProgram& program) {
         name(r);
     }
     for (const GeneralStage& stage : program.stages) {
+        for (const StageFetch& fetch : stage.fetches) {
+            name(fetch.destination);
+            for (int i = 0; i < coordinate_count(fetch.target); ++i)
+                name(fetch.coordinates[static_cast<std::size_t>(i)].reg);
+        }
         for (const Portion* p : {&stage.rgb, &stage.alpha}) {
             if (!p->writes()) continue;
             for (const Input* in : {&p->a, &p->b, &p->c, &p->d}) name(in->reg);
@@ -32,7 +37,13 @@ Registers<bool> named_registers(const CombinerProgram& program) {
 
 /// What a stage does, with the switches that only the hardware had as comments.
 std::string stage_text(const CombinerProgram& program, const GeneralStage& stage) {
-    std::string text = print_stage(stage);
+    std::string text;
+    if (!stage.fetches.empty()) {
+        text = "fetch {\n";
+        for (const StageFetch& fetch : stage.fetches) text += "    " + print_fetch(fetch) + ";\n";
+        text += "}\n";
+    }
+    text += print_stage(stage);
     if (stage.rgb.ab_blue_to_alpha) text += "// the blue of AB goes to alpha\n";
     if (stage.rgb.cd_blue_to_alpha) text += "// the blue of CD goes to alpha\n";
     const auto muxes = [](const Portion& p) {
@@ -72,6 +83,10 @@ class StageWriter {
 
     /// What the next stage writes.
     void write(const GeneralStage& stage) {
+        for (const StageFetch& fetch : stage.fetches) {
+            m_written[fetch.destination].fill(true);
+            m_filled[fetch.destination].fill(true);
+        }
         const auto mark = [&](const Portion& portion, std::size_t first, std::size_t last) {
             for (const Register r : {portion.ab_out, portion.cd_out, portion.third_out}) {
                 for (std::size_t c = first; c <= last; ++c) {
@@ -118,8 +133,9 @@ void trace_program(const ProgramMaterial& program, const Machine& machine,
     const CombinerProgram& combiners = program.combiners;
     std::vector<RegisterFile> codes;
     std::vector<RealRegisters> exact;
-    out.codes = run_combiners(combiners, machine, inputs.codes, &codes);
-    const Reals color = run_combiners_exactly(combiners, machine, inputs.exact, &exact);
+    out.codes = run_combiners(combiners, machine, inputs.codes, &codes, inputs.fetch);
+    const Reals color =
+        run_combiners_exactly(combiners, machine, inputs.exact, &exact, inputs.fetch_exactly);
     const double one = code_of_one(machine.numbers);
     for (std::size_t c = 0; c < 4; ++c) out.color[c] = {out.codes[c] / one, color[c]};
 

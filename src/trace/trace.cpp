@@ -10,6 +10,7 @@
 #include "raster/tile.hpp"
 #include "trace/fragment.hpp"
 #include "trace/program.hpp"
+#include "trace/unit_numbers.hpp"
 #include "trace/visible.hpp"
 
 namespace burnish {
@@ -48,6 +49,7 @@ class TracedFrame {
         out.triangle = seen.triangle;
         out.clipped = seen.setup.clipped != 0;
         out.depth = static_cast<double>(seen.depth);
+        out.units = traced_units(program, m_scene.machine);
         const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, out);
         name_corners(draw, seen.setup, out);
         trace_program(program, m_scene.machine, inputs, out);

@@ -49,6 +49,16 @@ struct TracedFetch {
     std::array<TracedNumber, 4> color{};
 };
 
+/// What a unit of a texture shader did on the way to its texel.
+struct TracedUnit {
+    int unit = 0;
+    std::string text;     ///< "dependent_ar(tex0)"
+    std::string problem;  ///< why it is off (check_consistency); empty: it is not
+    /// In the order in which they came about: what the previous texel means, dot products, moved
+    /// and mirrored coordinates, depth, whether the fragment is kept (1 or 0).
+    std::vector<TracedInterpolant> numbers;
+};
+
 /// One register at one place of the program.
 struct TracedRegister {
     Register reg = Register::zero;
@@ -78,6 +88,7 @@ struct TracedFragment {
     double depth = 0.0;                       ///< window depth, [0, 1]
     TracedNumber one_over_w;
     std::vector<TracedInterpolant> interpolants;
+    std::vector<TracedUnit> units;  ///< of the texture shader, if there is one
     std::vector<TracedFetch> fetches;
     std::vector<TracedStage> stages;
     std::array<int, 4> codes{};           ///< of the final combiner's result
