@@ -1,0 +1,343 @@
+// Texture shaders against a plain oracle: random programs, every unit's result at every pixel; and
+// the rules that turn units off, one by one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <burnish/error.hpp>
+#include <burnish/program_text.hpp>
+#include <burnish/renderer.hpp>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scratch_directory.hpp"
+#include "unit_oracle.hpp"
+
+namespace burnish {
+namespace {
+
+// --- consistency
+
+TexturePtr texture_of(TexelFormat format) {
+    return std::make_shared<const Texture>(Image8(2, 2), Sampler{}, format);
+}
+
+TextureShader shader_of(const std::string& statements) {
+    Parsed<TextureShader> parsed = parse_texture_shader("!!TS1.0\n" + statements);
+    EXPECT_TRUE(parsed.program.has_value()) << statements;
+    return parsed.program.value_or(TextureShader{});
+}
+
+class Consistency : public testing::Test {
+  protected:
+    /// "1: reason; 2: reason" of a shader whose units all have the textures of `units`.
+    std::string problems(const TextureShader& shader) const {
+        std::string text;
+        for (const UnitProblem& p : check_consistency(shader, units, machine)) {
+            if (!text.empty()) text += "; ";
+            text += std::to_string(p.unit) + ": " + p.reason;
+        }
+        return text;
+    }
+    std::string problems(const std::string& statements) const {
+        return problems(shader_of(statements));
+    }
+
+    TexturePtr rgba = texture_of(TexelFormat::rgba8);
+    TexturePtr signed_rgba = texture_of(TexelFormat::signed_rgba8);
+    std::vector<TexturePtr> units{rgba, rgba, rgba, rgba};
+    Machine machine = machine_profile("nv2a");
+};
+
+TEST_F(Consistency, NothingIsWrongWithGoodShaders) {
+    EXPECT_EQ(problems("texture_2d(); dependent_ar(tex0); dependent_gb(tex1); pass_through();"),
+              "");
+    EXPECT_EQ(problems("texture_2d(); dot_product_2d_1of2(tex0); dot_product_2d_2of2(tex0);"), "");
+    EXPECT_EQ(problems("nop(); pass_through(); dependent_ar(tex1);"), "");
+    EXPECT_EQ(problems(""), "");
+}
+
+TEST_F(Consistency, UnitsThatSampleNeedATexture) {
+    units[1] = nullptr;
+    EXPECT_EQ(problems("texture_2d(); texture_2d();"),
+              "1: texture_2d without a texture, expected a 2D texture");
+    units.resize(1);
+    EXPECT_EQ(problems("texture_2d(); nop(); dependent_ar(tex0);"),
+              "2: dependent_ar without a texture, expected a 2D texture");
+}
+
+TEST_F(Consistency, TexturesNeedTheTargetOfTheOperation) {
+    EXPECT_EQ(problems("texture_rectangle();"),
+              "0: texture_rectangle with a 2D texture, expected rectangle");
+    EXPECT_EQ(problems("texture_cube_map(); texture_3d(); texture_1d();"),
+              "0: texture_cube_map with a 2D texture, expected cube map; "
+              "1: texture_3d with a 2D texture, expected 3D; "
+              "2: texture_1d with a 2D texture, expected 1D");
+}
+
+TEST_F(Consistency, TheUnitReadHasATexel) {
+    TextureShader shader = shader_of(
+        "texture_2d(); dot_product_2d_1of2(tex0); "
+        "dot_product_2d_2of2(tex0);");
+    shader.units[3] = {.operation = TextureOperation::dependent_ar, .previous = 1};
+    EXPECT_EQ(problems(shader),
+              "3: dependent_ar reads unit 1, whose operation dot_product has no texel");
+    shader.units[3].previous = 2;
+    EXPECT_EQ(problems(shader), "");
+    shader.units[3].previous = 0;
+    shader.units[0].operation = TextureOperation::none;
+    EXPECT_SAYS(problems(shader),
+                "3: dependent_ar reads unit 0, whose operation none has no texel");
+}
+
+TEST_F(Consistency, AUnitThatIsOffTakesItsReadersWithIt) {
+    units[0] = nullptr;
+    EXPECT_EQ(problems("texture_2d(); dependent_ar(tex0); dependent_gb(tex1);"),
+              "0: texture_2d without a texture, expected a 2D texture; "
+              "1: dependent_ar reads unit 0, which is off; "
+              "2: dependent_gb reads unit 1, which is off");
+}
+
+TEST_F(Consistency, DependentReadsTakeUnsignedColors) {
+    units[0] = signed_rgba;
+    for (const std::string op : {"dependent_ar", "dependent_gb"})
+        EXPECT_EQ(problems("texture_2d(); " + op + "(tex0);"),
+                  "1: " + op +
+                      " reads unit 0, whose texels are signed colours, expected unsigned "
+                      "colours");
+}
+
+TEST_F(Consistency, OffsetsTakeDsdtUnlessTheMaterialSaysBytes) {
+    TextureShader shader = shader_of("texture_2d(); offset_2d(tex0, 1, 0, 0, 1);");
+    EXPECT_EQ(problems(shader),
+              "1: offset_2d reads unit 0, whose texels are unsigned colours, expected DSDT");
+    shader.bump_source = BumpSource::rgba8;
+    EXPECT_EQ(problems(shader), "");
+    units[0] = signed_rgba;
+    EXPECT_EQ(problems(shader), "");
+    shader = shader_of("texture_2d(); offset_2d_scale(tex0, 1, 0, 0, 1, 1, 0);");
+    EXPECT_EQ(problems(shader),
+              "1: offset_2d_scale reads unit 0, whose texels are signed colours, "
+              "expected DSDT with magnitude");
+    shader.bump_source = BumpSource::rgba8;  // red is an unsigned magnitude
+    EXPECT_EQ(problems(shader),
+              "1: offset_2d_scale reads unit 0, whose texels are signed colours, "
+              "expected unsigned colours");
+}
+
+TEST_F(Consistency, HiloOperationsTakeHilo) {
+    machine = machine_profile("ideal");
+    EXPECT_EQ(
+        problems("texture_2d(); dependent_hilo(tex0); offset_hilo_2d(tex0, 1, 0, 0, 1);"),
+        "1: dependent_hilo reads unit 0, whose texels are unsigned colours, expected unsigned "
+        "HILO; 2: offset_hilo_2d reads unit 0, whose texels are unsigned colours, expected "
+        "signed HILO");
+}
+
+TEST_F(Consistency, GroupsOfDotProductsFollowEachOther) {
+    TextureShader shader;
+    const auto dot = [](TextureOperation op) {
+        return TextureUnit{.operation = op, .previous = 0};
+    };
+    shader.units[0].operation = TextureOperation::texture_2d;
+    shader.units[1] = dot(TextureOperation::dot_product_2d);
+    EXPECT_EQ(problems(shader), "1: dot_product_2d in unit 1, expected dot_product in unit 0");
+    shader.units[1] = dot(TextureOperation::dot_product);
+    shader.units[3] = dot(TextureOperation::dot_product_depth_replace);
+    EXPECT_EQ(problems(shader),
+              "3: dot_product_depth_replace in unit 3, expected dot_product in unit 2");
+    // Three products, of which the first is missing.
+    shader.units = {};
+    shader.units[1].operation = TextureOperation::pass_through;
+    shader.units[2] = {.operation = TextureOperation::dot_product, .previous = 1};
+    shader.units[3] = {.operation = TextureOperation::dot_product_cube_map, .previous = 1};
+    EXPECT_SAYS(problems(shader), "3: dot_product_cube_map with a 2D texture");
+}
+
+TEST_F(Consistency, ADotProductThatIsOffTakesItsGroupWithIt) {
+    units[0] = nullptr;
+    EXPECT_EQ(problems("texture_2d(); dot_product_2d_1of2(tex0); dot_product_2d_2of2(tex0);"),
+              "0: texture_2d without a texture, expected a 2D texture; "
+              "1: dot_product reads unit 0, which is off; "
+              "2: dot_product_2d reads unit 0, which is off");
+    TextureShader shader = shader_of(
+        "texture_2d(); dot_product_2d_1of2(tex0); "
+        "dot_product_2d_2of2(tex0);");
+    shader.units[3] = shader.units[2];
+    units[0] = rgba;
+    EXPECT_EQ(problems(shader), "3: dot_product_2d in unit 3, expected dot_product in unit 2");
+}
+
+TEST_F(Consistency, TheLastUnitTakesNoBareDotProduct) {
+    TextureShader shader;
+    shader.units[2].operation = TextureOperation::texture_2d;
+    shader.units[3] = {.operation = TextureOperation::dot_product, .previous = 2};
+    EXPECT_EQ(problems(shader), "3: dot_product in the last unit, expected a unit behind it");
+    machine.texture_units = 3;
+    shader.units = {};
+    shader.units[1].operation = TextureOperation::texture_2d;
+    shader.units[2] = {.operation = TextureOperation::dot_product, .previous = 1};
+    EXPECT_EQ(problems(shader), "2: dot_product in the last unit, expected a unit behind it");
+}
+
+TEST_F(Consistency, DotMappingsOfTheHardwareFitTheirTexels) {
+    TextureShader shader = shader_of(
+        "texture_2d(); dot_product_2d_1of2(tex0); "
+        "dot_product_2d_2of2(tex0);");
+    shader.units[1].dot_mapping = DotMapping::nv2a_gl;
+    EXPECT_EQ(problems(shader), "");
+    units[0] = signed_rgba;
+    EXPECT_SAYS(problems(shader),
+                "1: dot_product reads unit 0 by a dot mapping of the NV2A, whose texels are signed "
+                "colours, expected unsigned colours");
+    shader.units[1].dot_mapping = DotMapping::nv2a_hilo;
+    EXPECT_SAYS(problems(shader), "expected unsigned HILO");
+    shader.units[1].dot_mapping = DotMapping::nv2a_hemisphere_gl;
+    EXPECT_SAYS(problems(shader), "expected signed HILO");
+}
+
+TEST_F(Consistency, MachinesWithoutTheHardwaresReadingsRefuseThem) {
+    TextureShader shader = shader_of(
+        "texture_2d(); dot_product_2d_1of2(tex0); "
+        "dot_product_2d_2of2(tex0);");
+    shader.units[1].dot_mapping = DotMapping::nv2a_d3d;
+    EXPECT_NO_THROW(shader.validate(machine));
+    EXPECT_THROW(shader.validate(machine_profile("ideal")), Error);
+    EXPECT_THROW((void)print_texture_shader(shader), Error);
+    shader = {};
+    shader.bump_source = BumpSource::rgba8;
+    EXPECT_NO_THROW(shader.validate(machine));
+    EXPECT_THROW(shader.validate(machine_profile("ideal")), Error);
+    EXPECT_THROW(shader.validate(machine_profile("geforce256")), Error);
+    EXPECT_THROW((void)print_texture_shader(shader), Error);
+}
+
+// --- pictures
+
+/// One pixel per set of coordinates.
+struct Drawing {
+    static constexpr int kSide = 16;
+
+    /// What register `reg` starts from at every pixel.
+    std::vector<Codes> registers(const Scene& scene, Register reg, int one) {
+        Framebuffer frame(kSide, kSide, PixelFormat::rgba32f);
+        renderer.render(scene, frame, {reg, 0});
+        std::vector<Codes> codes;
+        for (int y = 0; y < kSide; ++y) {
+            const auto* row = reinterpret_cast<const float*>(frame.row(y));
+            for (int x = 0; x < kSide; ++x) {
+                Codes pixel{};
+                for (std::size_t c = 0; c < 4; ++c)
+                    pixel[c] = static_cast<int>(
+                        std::lround(row[4 * x + static_cast<int>(c)] * static_cast<float>(one)));
+                codes.push_back(pixel);
+            }
+        }
+        return codes;
+    }
+    Renderer renderer{RendererOptions{.threads = 1}};
+};
+
+/// Whatever a shader may be asked to do.
+TextureShader random_shader(Random& random, const Machine& machine) {
+    TextureShader shader;
+    if (machine.numbers == NumberModel::nine_bit && random.chance(2))
+        shader.bump_source = BumpSource::rgba8;
+    for (int i = 0; i < kTextureShaderUnits; ++i) {
+        TextureUnit& u = shader.units.at(static_cast<std::size_t>(i));
+        for (bool fits = false; !fits;) {
+            u = random_unit(random, machine, i);
+            TextureShader alone;
+            alone.units.at(static_cast<std::size_t>(i)) = u;
+            try {
+                alone.validate(machine);
+                fits = true;
+            } catch (const Error&) {
+            }
+        }
+    }
+    // Groups are rare by chance.
+    const int unit = random.between(2, 3);
+    const bool three = unit == 3 && random.chance(2);
+    if (random.chance(2)) {
+        for (int k = three ? 2 : 1; k >= 1; --k)
+            shader.units.at(static_cast<std::size_t>(unit - k)).operation =
+                TextureOperation::dot_product;
+        shader.units.at(static_cast<std::size_t>(unit)).operation = random_group_end(random, three);
+        for (int k = unit - (three ? 2 : 1); k <= unit; ++k)
+            shader.units.at(static_cast<std::size_t>(k)).previous = 0;
+    }
+    return shader;
+}
+
+void check_shaders(const Machine& machine, unsigned shaders) {
+    Drawing drawing;
+    const int one = machine.numbers == NumberModel::nine_bit ? 255 : 16384;
+    int delivered = 0;
+    for (unsigned seed = 0; seed < shaders; ++seed) {
+        Random random(seed);
+        auto program = std::make_shared<ProgramMaterial>();
+        program->texture_shader = random_shader(random, machine);
+        std::vector<OracleTexture> textures;
+        for (int i = 0; i < kTextureShaderUnits; ++i) {
+            textures.push_back(random_oracle_texture(
+                random, program->texture_shader->units.at(static_cast<std::size_t>(i)), machine));
+            program->units.push_back(textures.back().texture);
+        }
+        try {
+            program->texture_shader->validate(machine);
+        } catch (const Error&) {
+            continue;  // the depth replaced twice
+        }
+        // Registers that the program names exist.
+        Scene scene;
+        scene.width = scene.height = Drawing::kSide;
+        scene.machine = machine;
+        auto material = std::make_shared<Material>();
+        material->program = *program;
+        RawVertices raw{.space = Space::window, .topology = Topology::quads, .vertices = {}};
+        std::vector<std::array<glm::vec4, 4>> coordinates;
+        for (int y = 0; y < Drawing::kSide; ++y) {
+            for (int x = 0; x < Drawing::kSide; ++x) {
+                coordinates.push_back(random_coordinates(random));
+                for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+                    raw.vertices.push_back(
+                        {.position = {x + dx, y + dy, 0.5F, 1.0F}, .uv = coordinates.back()});
+            }
+        }
+        scene.objects.push_back({raw, material, glm::mat4(1.0F), {}});
+        for (int unit = 0; unit < kTextureShaderUnits; ++unit) {
+            const std::vector<Codes> got = drawing.registers(scene, tex(unit), one);
+            for (std::size_t i = 0; i < got.size(); ++i) {
+                const UnitOracle oracle(*program->texture_shader, textures, machine,
+                                        coordinates[i]);
+                const Codes want = oracle.result(unit);
+                ASSERT_EQ(got[i], want)
+                    << machine.name << ", seed " << seed << ", unit " << unit << ", pixel " << i
+                    << ": "
+                    << texture_operation_name(
+                           program->texture_shader->units.at(static_cast<std::size_t>(unit))
+                               .operation);
+                delivered += want != Codes{} ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(delivered, static_cast<int>(shaders) * 100);
+}
+
+TEST(TextureUnits, RandomShadersOfTheNv2aEqualTheOracle) {
+    check_shaders(machine_profile("nv2a"), 400);
+    Machine gl = machine_profile("nv2a");
+    gl.magnitude_factor = MagnitudeFactor::clamped;
+    check_shaders(gl, 100);
+}
+
+TEST(TextureUnits, RandomShadersOfTheIdealMachineEqualTheOracle) {
+    check_shaders(machine_profile("ideal"), 400);
+}
+
+}  // namespace
+}  // namespace burnish
