@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 
+#include "shade/sample.hpp"
+
 namespace burnish {
 
 namespace {
@@ -149,60 +151,44 @@ class Planner {
         if (next > m_shading.interpolated()) m_shading.inputs.emplace_back(m_lighting);
     }
 
-    AddressCtx address_of(const Texture& texture, int unit) {
-        const auto mode = [](Wrap wrap) {
-            return wrap == Wrap::repeat ? AddressMode::repeat : AddressMode::clamp_to_edge;
-        };
+    SampleCoordinates coordinates(int unit, TextureTarget target) {
+        if (m_is_mesh) return {0, 1, -1, -1, true};
         const int set = unit < kUnitsWithCoordinates ? unit : 0;
         const auto coordinate = [&](int component) {
             return varying({Varying::Source::uv, 4 * set + component});
         };
-        AddressCtx ctx{};
-        ctx.u = m_is_mesh ? 0 : coordinate(0);
-        ctx.v = m_is_mesh ? 1 : coordinate(1);
-        ctx.q = m_is_mesh ? -1 : coordinate(3);
-        ctx.width = texture.width();
-        ctx.height = texture.height();
-        ctx.pitch = texture.pitch();
-        ctx.mode_s = mode(texture.sampler().wrap_s);
-        ctx.mode_t = mode(texture.sampler().wrap_t);
-        ctx.linear = texture.sampler().filter == Filter::linear ? 1 : 0;
-        return ctx;
+        SampleCoordinates at{coordinate(0), -1, -1, -1, true};
+        if (target != TextureTarget::one_d) at.t = coordinate(1);
+        if (target == TextureTarget::cube || target == TextureTarget::three_d) at.r = coordinate(2);
+        if (target != TextureTarget::cube) at.q = coordinate(3);
+        return at;
     }
 
-    static bool same(const AddressCtx& a, const AddressCtx& b) {
-        return a.u == b.u && a.v == b.v && a.q == b.q && a.width == b.width &&
-               a.height == b.height && a.pitch == b.pitch && a.mode_s == b.mode_s &&
-               a.mode_t == b.mode_t && a.linear == b.linear;
-    }
-
-    /// Addresses are made once for units in a row that share coordinates, size and sampler, and
-    /// their texels fetched together.
-    void add_fetch(const AddressCtx& address, const Texture& texture, int plane,
-                   const AddressCtx& last) {
-        const bool shares = !m_texture_ops.empty() && same(last, address);
-        if (!shares) m_texture_ops.emplace_back(address);
-        auto* fetch = shares ? &std::get<FetchCtx>(m_texture_ops.back()) : nullptr;
-        if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
-            m_texture_ops.emplace_back(FetchCtx{{}, {}, {}, 0, texture.pitch()});
-            fetch = &std::get<FetchCtx>(m_texture_ops.back());
+    /// What registers get of a texture without a texture shader: nothing of hilo and DSDT but the
+    /// intensity.
+    void plan_texture(const Texture& texture, int unit, int plane, SamplePlan& plan) {
+        const TexelClass kind = format_class(texture.format());
+        const bool offsets = kind == TexelClass::dsdt || kind == TexelClass::dsdt_mag;
+        const bool hidden = offsets || is_hilo(texture.format());
+        if (!hidden) {
+            plan_sample(texture, coordinates(unit, texture.target()), {plane, -1}, plan,
+                        m_texture_ops);
         }
-        fetch->texels[fetch->count] = texture.texels();
-        fetch->is_signed[fetch->count] = texture.format() == TexelFormat::signed_rgba8 ? 1 : 0;
-        fetch->plane[fetch->count++] = plane;
+        const int cleared = hidden ? 4 : kind == TexelClass::dsdt_mag_intensity ? 3 : 0;
+        for (int c = 0; c < cleared; ++c) m_texture_ops.emplace_back(ClearCtx{plane + c});
     }
 
     void plan_textures() {
-        AddressCtx last{};
+        BoundProgram& program = m_shading.program;
+        SamplePlan plan{program.numbers, kSampleScratch, program.plane_count};
         for (std::size_t unit = 0; unit < m_shading.textures.size(); ++unit) {
             const TexturePtr& texture = m_shading.textures[unit];
             const auto reg = static_cast<std::size_t>(tex(static_cast<int>(unit)));
-            const int plane = m_shading.program.input[reg][0];
+            const int plane = program.input[reg][0];
             if (!texture || plane < 0) continue;
-            const AddressCtx address = address_of(*texture, static_cast<int>(unit));
-            add_fetch(address, *texture, plane, last);
-            last = address;
+            plan_texture(*texture, static_cast<int>(unit), plane, plan);
         }
+        if (plan.uses_planes) program.plane_count += kSamplePlanes;
     }
 
     Shading& m_shading;
@@ -251,9 +237,10 @@ void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out)
 }
 
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
-                Packet& packet) {
+                const AttributesCtx& runs, Packet& packet) {
     struct FeedInput {
         const KernelTable& k;
+        const AttributesCtx& runs;
         Packet& p;
         bool nine_bit;
         void operator()(const ClearCtx& c) const {
@@ -267,8 +254,19 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const FetchCtx& c) const {
             (nine_bit ? k.fetch_nine_bit : k.fetch_wide)(p, c);
         }
+        void operator()(const CubeFaceCtx& c) const { k.cube_face(p, c); }
+        void operator()(const PlaneFootprintCtx& c) const {
+            k.plane_footprint(p, {c.footprint, runs});
+        }
+        void operator()(const QuadFootprintCtx& c) const { k.quad_footprint(p, c); }
+        void operator()(const LevelOfDetailCtx& c) const { k.level_of_detail(p, c); }
+        void operator()(const LevelAddressCtx& c) const { k.level_address(p, c); }
+        void operator()(const FetchHiloCtx& c) const { k.fetch_hilo(p, c); }
+        void operator()(const FetchWordsCtx& c) const { k.fetch_words(p, c); }
+        void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
+        void operator()(const HiloCtx& c) const { k.hilo(p, c); }
     };
-    std::visit(FeedInput{kernels, packet, numbers == NumberModel::nine_bit}, op);
+    std::visit(FeedInput{kernels, runs, packet, numbers == NumberModel::nine_bit}, op);
 }
 
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
@@ -276,7 +274,7 @@ void shade_packet(const Shading& shading, const KernelTable& kernels, const Attr
     const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
     kernels.attributes(packet, runs);
     for (const InputOp& op : shading.inputs) {
-        feed_input(op, shading.program.numbers, kernels, packet);
+        feed_input(op, shading.program.numbers, kernels, runs, packet);
     }
     run(shading.program, kernels, packet);
     StoreCtx store{};

@@ -18,8 +18,9 @@ inline constexpr int kUvAttributes = 2;
 inline constexpr int kFrameAttributes = 12;
 /// All that can be interpolated: the frame, or eight colours and sixteen coordinates; and `lit`.
 inline constexpr int kMaxInterpolated = 32;
-/// With the three vectors and n.l that the lighting stage adds.
-inline constexpr int kMaxAttributes = kMaxInterpolated + 10;
+/// With the three vectors and n.l that the lighting stage adds, and scratch planes of samples.
+inline constexpr int kSampleScratch = kMaxInterpolated + 10;
+inline constexpr int kMaxAttributes = kSampleScratch + 3;
 
 /// A register plane that nothing feeds.
 struct ClearCtx {
@@ -27,7 +28,9 @@ struct ClearCtx {
 };
 
 /// Fills registers of a packet before the program runs.
-using InputOp = std::variant<ClearCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx>;
+using InputOp = std::variant<ClearCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx, CubeFaceCtx,
+                             PlaneFootprintCtx, QuadFootprintCtx, LevelOfDetailCtx, LevelAddressCtx,
+                             FetchHiloCtx, FetchWordsCtx, BlendLevelsCtx, HiloCtx>;
 
 /// How one object's fragments get their colour: what its triangles interpolate, what fills the
 /// registers, the program.
@@ -55,8 +58,9 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
 /// Writes the shading.interpolated() attributes of one vertex.
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out);
 
-/// One input operation on a packet.
-void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels, Packet& packet);
+/// One input operation on a packet; `runs` are those of its fragments.
+void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
+                const AttributesCtx& runs, Packet& packet);
 
 /// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
 /// constant planes are in place.
