@@ -4,17 +4,33 @@ struct AxisAddress {
     I32 weight;  ///< of its neighbour, 0 .. 255
 };
 
+/// `whole` is the coordinate of the far side, `steps` how many 1/256 texels 1 is.
 template <AddressMode Mode, bool Linear>
-inline AxisAddress axis_address(F32 coordinate, std::int32_t size) {
+inline AxisAddress axis_address(F32 coordinate, std::int32_t size, F32 whole, F32 steps) {
     const I32 last(size - 1), zero(0);
+    const F32 one(1.0F), nought(0.0F);
     F32 f = coordinate;
     if constexpr (Mode == AddressMode::repeat) f = coordinate - ::xsimd::floor(coordinate);
-    f = min(max(f, F32(0.0F)), F32(1.0F));
-    const I32 fixed = truncate(f * F32(static_cast<float>(256 * size))) - I32(Linear ? 128 : 0);
+    if constexpr (Mode == AddressMode::mirrored_repeat) {
+        f = coordinate - F32(2.0F) * ::xsimd::floor(coordinate * F32(0.5F));
+        f = ::xsimd::select(f > one, F32(2.0F) - f, f);
+    }
+    I32 fixed;
+    if constexpr (Mode == AddressMode::clamp_to_border) {
+        fixed = truncate(::xsimd::floor(min(max(f, nought - one), whole + one) * steps));
+    } else {
+        fixed = truncate(min(max(f, nought), whole) * steps);
+    }
+    fixed = fixed - I32(Linear ? 128 : 0);
     AxisAddress a{fixed >> 8, Linear ? (fixed & I32(255)) : zero};
     if constexpr (Mode == AddressMode::repeat) {
         a.texel = a.texel + ((a.texel >> 31) & I32(size));
         a.texel = ::xsimd::select(a.texel > last, a.texel - I32(size), a.texel);
+    } else if constexpr (Mode == AddressMode::clamp_to_border) {
+        const I32 before(-1), behind(size);
+        a.weight = ::xsimd::select(a.texel < before, zero, a.weight);
+        a.weight = ::xsimd::select(a.texel > last, zero, a.weight);
+        a.texel = min(max(a.texel, before), behind);
     } else {
         a.weight = ::xsimd::select(a.texel < zero, zero, a.weight);
         a.texel = min(max(a.texel, zero), last);
@@ -29,6 +45,11 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
     const float* q = packet.attributes + (ctx.q < 0 ? 0 : ctx.q) * kAttributeStride;
     const bool projective = ctx.q >= 0;
     const std::int32_t width = ctx.width, height = ctx.height;
+    const bool texels = ctx.rectangle != 0;
+    const F32 whole_x(texels ? static_cast<float>(width) : 1.0F);
+    const F32 whole_y(texels ? static_cast<float>(height) : 1.0F);
+    const F32 steps_x(texels ? 256.0F : static_cast<float>(256 * width));
+    const F32 steps_y(texels ? 256.0F : static_cast<float>(256 * height));
     const I32 pitch(ctx.pitch);
     std::int32_t* const texel = packet.texel;
     std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
@@ -40,8 +61,8 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
             s = divide(s, divisor);
             t = divide(t, divisor);
         }
-        const AxisAddress x = axis_address<ModeS, Linear>(s, width);
-        const AxisAddress y = axis_address<ModeT, Linear>(t, height);
+        const AxisAddress x = axis_address<ModeS, Linear>(s, width, whole_x, steps_x);
+        const AxisAddress y = axis_address<ModeT, Linear>(t, height, whole_y, steps_y);
         store(texel + i, y.texel * pitch + (x.texel << 2));
         store_narrowed(weight_x + i, x.weight);
         store_narrowed(weight_y + i, y.weight);
@@ -57,14 +78,31 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
     }
 }
 
-void address(Packet& packet, const AddressCtx& ctx) noexcept {
-    constexpr AddressMode kRepeat = AddressMode::repeat, kClamp = AddressMode::clamp_to_edge;
-    if (ctx.mode_s == kRepeat) {
-        if (ctx.mode_t == kRepeat) return addresses<kRepeat, kRepeat>(packet, ctx);
-        return addresses<kRepeat, kClamp>(packet, ctx);
+template <AddressMode ModeS>
+void addresses(Packet& packet, const AddressCtx& ctx) {
+    switch (ctx.mode_t) {
+        case AddressMode::repeat:
+            return addresses<ModeS, AddressMode::repeat>(packet, ctx);
+        case AddressMode::clamp_to_edge:
+            return addresses<ModeS, AddressMode::clamp_to_edge>(packet, ctx);
+        case AddressMode::clamp_to_border:
+            return addresses<ModeS, AddressMode::clamp_to_border>(packet, ctx);
+        case AddressMode::mirrored_repeat:
+            return addresses<ModeS, AddressMode::mirrored_repeat>(packet, ctx);
     }
-    if (ctx.mode_t == kRepeat) return addresses<kClamp, kRepeat>(packet, ctx);
-    return addresses<kClamp, kClamp>(packet, ctx);
+}
+
+void address(Packet& packet, const AddressCtx& ctx) noexcept {
+    switch (ctx.mode_s) {
+        case AddressMode::repeat:
+            return addresses<AddressMode::repeat>(packet, ctx);
+        case AddressMode::clamp_to_edge:
+            return addresses<AddressMode::clamp_to_edge>(packet, ctx);
+        case AddressMode::clamp_to_border:
+            return addresses<AddressMode::clamp_to_border>(packet, ctx);
+        case AddressMode::mirrored_repeat:
+            return addresses<AddressMode::mirrored_repeat>(packet, ctx);
+    }
 }
 
 /// Byte patterns for the 128-bit lanes of the fetch. A lane holds two fragments' texel pairs,
@@ -147,11 +185,11 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
     const int textures = ctx.count;
     const std::uint8_t* texels[FetchCtx::kMaxTextures];
     std::int16_t* planes[FetchCtx::kMaxTextures];
-    bool is_signed[FetchCtx::kMaxTextures];
+    unsigned signed_channels[FetchCtx::kMaxTextures];
     for (int t = 0; t < textures; ++t) {
         texels[t] = ctx.texels[t];
         planes[t] = packet.planes + ctx.plane[t] * kPacketSize;
-        is_signed[t] = ctx.is_signed[t] != 0;
+        signed_channels[t] = ctx.is_signed[t];
     }
     const std::int32_t* const texel = packet.texel;
     const std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
@@ -185,10 +223,21 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
                 store(out + 2 * kPacketSize, code(b));
                 store(out + 3 * kPacketSize, code(a));
             };
-            if (is_signed[t]) {
+            const unsigned channels = signed_channels[t];
+            if (channels == 0) {
+                put([](I16 v) { return Filter::unsigned_code(v); });
+            } else if (channels == FetchCtx::kAllSigned) {
                 put([](I16 v) { return Filter::signed_code(v); });
             } else {
-                put([](I16 v) { return Filter::unsigned_code(v); });
+                const auto put_channel = [&](int c, I16 v) {
+                    const bool is_signed = (channels >> c & 1U) != 0;
+                    store(planes[t] + i + c * kPacketSize,
+                          is_signed ? Filter::signed_code(v) : Filter::unsigned_code(v));
+                };
+                put_channel(0, r);
+                put_channel(1, g);
+                put_channel(2, b);
+                put_channel(3, a);
             }
         }
     }

@@ -3,6 +3,7 @@
 ///   BURNISH_ARCH   xsimd's architecture, e.g. avx2
 ///   BURNISH_TABLE  the one function that leaves this file, e.g. table_avx2
 #include "kernels/kernel_table.hpp"
+#include "kernels/log2_steps.hpp"
 #include "kernels/simd.hpp"
 
 namespace burnish::BURNISH_ISA {
@@ -14,9 +15,11 @@ namespace {
 #include "kernels/fetch.inl"
 #include "kernels/final.inl"  // after combine.inl, whose products it uses
 #include "kernels/interpolate.inl"
+#include "kernels/levels.inl"  // after fetch.inl, whose AxisAddress it uses
 #include "kernels/rasterize.inl"
 #include "kernels/texture_shader.inl"
 #include "kernels/transform.inl"
+#include "kernels/words.inl"
 
 #define BURNISH_STRINGIFY_(x) #x
 #define BURNISH_STRINGIFY(x) BURNISH_STRINGIFY_(x)

@@ -51,14 +51,18 @@ struct EncodeCtx {
     int plane;
 };
 
-enum class AddressMode : std::uint8_t { repeat, clamp_to_edge };
+enum class AddressMode : std::uint8_t { repeat, clamp_to_edge, clamp_to_border, mirrored_repeat };
 
 /// Texel addresses and weights from coordinates u, v (v downward: row 0 at 0).
 /// Where there is a q, u = u / q and v = v / q first.
-/// repeat: f = u - floor(u); clamp_to_edge: f = u. Then f = min(max(f, 0), 1) (NaN gives 0),
-/// x = int(f * float(256 * width)) - (linear ? 128 : 0), texel x0 = x >> 8, weight = x & 255.
+/// repeat: f = u - floor(u); mirrored_repeat: f = u - 2 * floor(u * 0.5), and 2 - f where that is
+/// above 1; else f = u. Then f = min(max(f, 0), 1), clamp_to_border min(max(f, -1), 2) (NaN gives
+/// the lower end), x = floor(f * float(256 * width)) - (linear ? 128 : 0), texel x0 = x >> 8,
+/// weight = x & 255.
 /// repeat: x0 < 0 becomes x0 + width, x0 >= width becomes x0 - width.
-/// clamp_to_edge: x0 < 0 becomes 0 with weight 0; x0 >= width becomes width - 1.
+/// clamp_to_border: x0 < -1 becomes -1 with weight 0; x0 >= width becomes width with weight 0.
+/// Others: x0 < 0 becomes 0 with weight 0; x0 >= width becomes width - 1.
+/// rectangle: coordinates are in texels; 1, 2 and 256 * width above are width, width + 1 and 256.
 /// Not linear: weight 0. The right and the lower neighbours are in memory beside and below the
 /// texel in every case. Rows likewise. Offset = y0 * pitch + 4 * x0.
 struct AddressCtx {
@@ -67,11 +71,12 @@ struct AddressCtx {
     std::int32_t width, height, pitch;  ///< texels, texels, bytes
     AddressMode mode_s, mode_t;
     std::uint8_t linear;
+    std::uint8_t rectangle = 0;  ///< only with modes that clamp
 };
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
 /// 4 bytes apart, the rows one pitch. Texture k gives four planes r, g, b, a from plane[k] on.
-/// A texel t is four bytes r, g, b, a; those of a signed texture are value + 128.
+/// A texel t is four bytes r, g, b, a; those of a signed channel are value + 128.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows,
 ///   v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8; code = v, signed 2 * (v - 128).
 /// wide: h = (256 - wx) * t_left + wx * t_right,
@@ -79,11 +84,127 @@ struct AddressCtx {
 ///   code = (v + (v >> 8) + 2) >> 2, signed (v - 32768 + 1) >> 1.
 struct FetchCtx {
     static constexpr int kMaxTextures = 4;
+    static constexpr std::uint8_t kAllSigned = 15;
     const std::uint8_t* texels[kMaxTextures];
     int plane[kMaxTextures];
-    std::uint8_t is_signed[kMaxTextures];
-    int count;           ///< 1 .. kMaxTextures
+    std::uint8_t is_signed[kMaxTextures];  ///< bit c: channel c
+    int count;                             ///< 1 .. kMaxTextures
+    std::int32_t pitch;                    ///< bytes
+};
+
+/// Two words a texel: planes h, l = plane, plane + 1. Words t are signed; for both rows
+/// h = ((256 - wx) * t_left + wx * t_right + 128) >> 8, then
+/// ((256 - wy) * h_top + wy * h_bottom + 128) >> 8, which is what the plane gets.
+struct FetchHiloCtx {
+    const std::uint8_t* texels;
+    int plane;
     std::int32_t pitch;  ///< bytes
+};
+
+/// Four words a texel, value - 32768, 8 bytes from left to right, as wide codes in four planes:
+/// x = ((256 - wy) * ((256 - wx) * t_left + wx * t_right) + wy * (the same below) + 2^15) >> 16,
+/// code = (x + 32768 + 2) >> 2.
+struct FetchWordsCtx {
+    const std::uint8_t* texels;
+    int plane;
+    std::int32_t pitch;  ///< bytes
+};
+
+/// Planes out + c = a + (b - a) * w / 256 of planes a + c and b + c, rounded half up, with the low
+/// 8 bits of plane `weight` as w. Channels of `doubled` hold even codes 2 n; n is what is rounded.
+struct BlendLevelsCtx {
+    int a, b, out;  ///< first planes; out may be a or b
+    int channels;   ///< 1 .. 4
+    int weight;     ///< plane
+    std::uint8_t doubled;
+};
+
+/// Attribute planes out, out + 1 of the words x in planes `plane`, plane + 1:
+/// float(x + 32768) / 65535, signed float(x) / 32768.
+struct HiloCtx {
+    int plane, out;
+    std::uint8_t is_signed;
+};
+
+/// The face of a cube map that a direction (s, t, r) meets, 0 .. 5: +x -x +y -y +z -z, and where.
+/// |s| >= |t| and |s| >= |r|: an x face; else |t| >= |r|: a y face; else a z face. The negative one
+/// where that coordinate is < 0. With m its absolute value and (a, b) =
+///   +x (-r, -t)  -x (r, -t)  +y (s, r)  -y (s, -r)  +z (s, -t)  -z (-s, -t):
+/// u = (a / m) * 0.5 + 0.5, v = (b / m) * 0.5 + 0.5.
+struct CubeFaceCtx {
+    int s, t, r;  ///< attribute planes
+    int u, v;     ///< attribute planes to write
+    int face;     ///< plane to write
+};
+
+/// How many texels of level 0 a pixel covers, squared: attribute plane `out`. With D the divisor of
+/// the coordinates, and derivatives along x and y,
+///   u = S / D, u' = ((S' - u * D') / D) * scale[0], and so with T and R;
+///   out = max(square along x, square along y), square = (u' * u' + v' * v') + r' * r', the last
+///   only where there is an r. max(a, b) = a > b ? a : b.
+/// For a cube map S, T and D are what CubeFaceCtx calls a, b and m at the fragment's face.
+struct FootprintCtx {
+    int s, t, r, q;  ///< attributes; r and q may be -1, cube: q is
+    std::uint8_t cube;
+    float scale[3];  ///< texels per unit of s, t, r; cube: half a side, twice
+    int out;
+};
+
+/// From the planes of interpolated attributes: S is planes[s + 1], D planes[q + 1], or planes[0]
+/// where there is no q. Values at the pixel as in AttributesCtx, derivatives the planes' dx and dy;
+/// for a cube map the signs of a and b are applied to value and derivatives alike.
+struct PlaneFootprintCtx {
+    FootprintCtx footprint;
+    AttributesCtx runs;  ///< attribute_count is not looked at
+};
+
+/// From differences between fragments of 2x2 quads: fragments 4 k .. 4 k + 3 are upper left, upper
+/// right, lower left, lower right. S' along x = right - left in the fragment's own row, along y =
+/// lower - upper in its own column; D is attribute q, or 1 with no difference. Groups are whole.
+struct QuadFootprintCtx {
+    FootprintCtx footprint;
+};
+
+/// Level of detail in 1/256 from the footprint f in attribute plane `footprint`:
+/// f = min(max(f, 2^-64), 2^64) (NaN gives 2^-64), f = 2^e (1 + m / 2^23);
+/// 128 e + (how many entries of kLog2Step are <= m) + bias, clamped to 0 .. max.
+/// That is log2(sqrt(f)) to the nearest 1/256.
+struct LevelOfDetailCtx {
+    int footprint;
+    int plane;
+    std::int32_t bias, max;  ///< 1/256 level; |bias| <= 4096
+};
+
+/// Which level an address is in: 0; the nearest of lambda, min((lambda + 127) >> 8, last); the one
+/// above, lambda >> 8; or the one below it, at most the last.
+enum class LevelChoice : std::uint8_t { base, nearest, floor, ceiling };
+
+/// Texel addresses and weights as in AddressCtx, in levels, faces and slices.
+/// lambda = plane `lambda`, or 0; linear = lambda > 0 ? min_linear : mag_linear.
+/// Offset = level.offset + y0 * pitch + x0 * texel_bytes + (face or slice) * layer_bytes.
+/// A slice comes from r and the level's depth as a texel does from u: z0; behind it z0 + 1, which
+/// is 0 again for repeat, depth - 1 for clamp_to_edge and mirrored_repeat, at most depth for
+/// clamp_to_border. The weight of the one behind goes to plane `slice_weight`.
+struct LevelAddressCtx {
+    static constexpr int kMaxLevels = 15;
+    struct Level {
+        std::int32_t width, height, depth, offset;
+    };
+
+    int u, v;          ///< attribute planes
+    int q;             ///< attribute plane that divides u, v, r; or -1
+    int r;             ///< attribute plane of slices, or -1
+    int face;          ///< plane of cube faces, or -1
+    int lambda;        ///< plane, or -1
+    int slice_weight;  ///< plane to write, or -1
+    AddressMode mode_s, mode_t, mode_r;
+    LevelChoice choice;
+    std::uint8_t behind;  ///< take the slice behind
+    std::uint8_t mag_linear, min_linear;
+    std::uint8_t rectangle;
+    std::int32_t pitch, layer_bytes, texel_bytes;
+    std::int32_t level_count;
+    Level levels[kMaxLevels];
 };
 
 /// An input of a combiner portion: the register planes of its components and the mapping, by the

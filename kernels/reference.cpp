@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "kernels/kernel_table.hpp"
+#include "kernels/log2_steps.hpp"
 
 /// The scalar reference of every stage: one pixel at a time, each line the definition from
 /// docs/numbers.md or from the comment of the stage's argument. It decides what the vector kernels
@@ -222,21 +223,37 @@ struct TexelPosition {
     std::int16_t weight;
 };
 
-TexelPosition texel_position(float u, std::int32_t size, AddressMode mode, bool linear) {
-    const bool repeat = mode == AddressMode::repeat;
-    const float f = minimum(maximum(repeat ? u - std::floor(u) : u, 0.0F), 1.0F);
-    const std::int32_t fixed =
-        static_cast<std::int32_t>(f * static_cast<float>(256 * size)) - (linear ? 128 : 0);
+/// `linear`: between two texels, else the nearest. Coordinates run over 0 .. 1, of a rectangle over
+/// 0 .. size.
+TexelPosition texel_position(float u, std::int32_t size, AddressMode mode, bool linear,
+                             bool rectangle) {
+    const float whole = rectangle ? static_cast<float>(size) : 1.0F;
+    const float steps = rectangle ? 256.0F : static_cast<float>(256 * size);
+    const bool border = mode == AddressMode::clamp_to_border;
+    float f = u;
+    if (mode == AddressMode::repeat) f = u - std::floor(u);
+    if (mode == AddressMode::mirrored_repeat) {
+        f = u - 2.0F * std::floor(u * 0.5F);
+        if (f > 1.0F) f = 2.0F - f;
+    }
+    f = minimum(maximum(f, border ? -1.0F : 0.0F), border ? whole + 1.0F : whole);
+    const auto fixed = static_cast<std::int32_t>(std::floor(f * steps)) - (linear ? 128 : 0);
     TexelPosition p{fixed >> 8, static_cast<std::int16_t>(linear ? fixed & 255 : 0)};
-    if (repeat) {
-        if (p.texel < 0) p.texel += size;
-        if (p.texel >= size) p.texel -= size;
-    } else {
-        if (p.texel < 0) {
-            p.texel = 0;
-            p.weight = 0;
-        }
-        if (p.texel >= size) p.texel = size - 1;
+    const auto stop_at = [&](std::int32_t texel) { p = {texel, 0}; };
+    switch (mode) {
+        case AddressMode::repeat:
+            if (p.texel < 0) p.texel += size;
+            if (p.texel >= size) p.texel -= size;
+            break;
+        case AddressMode::clamp_to_border:
+            if (p.texel < -1) stop_at(-1);
+            if (p.texel >= size) stop_at(size);
+            break;
+        case AddressMode::clamp_to_edge:
+        case AddressMode::mirrored_repeat:
+            if (p.texel < 0) stop_at(0);
+            if (p.texel >= size) p.texel = size - 1;
+            break;
     }
     return p;
 }
@@ -249,9 +266,161 @@ void address(Packet& packet, const AddressCtx& ctx) noexcept {
             u = u / attribute(packet, ctx.q)[i];
             v = v / attribute(packet, ctx.q)[i];
         }
-        const TexelPosition s = texel_position(u, ctx.width, ctx.mode_s, ctx.linear != 0);
-        const TexelPosition t = texel_position(v, ctx.height, ctx.mode_t, ctx.linear != 0);
+        const bool linear = ctx.linear != 0, rectangle = ctx.rectangle != 0;
+        const TexelPosition s = texel_position(u, ctx.width, ctx.mode_s, linear, rectangle);
+        const TexelPosition t = texel_position(v, ctx.height, ctx.mode_t, linear, rectangle);
         packet.texel[i] = t.texel * ctx.pitch + 4 * s.texel;
+        packet.weight_x[i] = s.weight;
+        packet.weight_y[i] = t.weight;
+    }
+}
+
+/// Something at a pixel, and how it changes to the right and downwards.
+struct Changing {
+    float value, dx, dy;
+    Changing operator-() const { return {-value, -dx, -dy}; }
+};
+
+/// Where a direction meets a cube map, before the division by m.
+struct FacePoint {
+    int face;
+    Changing a, b, m;
+};
+
+FacePoint face_point(const Changing& s, const Changing& t, const Changing& r) {
+    const float x = std::fabs(s.value), y = std::fabs(t.value), z = std::fabs(r.value);
+    if (x >= y && x >= z) {
+        if (s.value < 0.0F) return {1, r, -t, -s};
+        return {0, -r, -t, s};
+    }
+    if (y >= z) {
+        if (t.value < 0.0F) return {3, s, -r, -t};
+        return {2, s, r, t};
+    }
+    if (r.value < 0.0F) return {5, -s, -t, -r};
+    return {4, s, -t, r};
+}
+
+void cube_face(Packet& packet, const CubeFaceCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const auto direction = [&](int k) -> Changing { return {attribute(packet, k)[i], 0, 0}; };
+        const FacePoint p = face_point(direction(ctx.s), direction(ctx.t), direction(ctx.r));
+        attribute(packet, ctx.u)[i] = (p.a.value / p.m.value) * 0.5F + 0.5F;
+        attribute(packet, ctx.v)[i] = (p.b.value / p.m.value) * 0.5F + 0.5F;
+        plane(packet, ctx.face)[i] = static_cast<std::int16_t>(p.face);
+    }
+}
+
+/// `at` gives attribute k, or with -1 the divisor where there is no q.
+template <class At>
+float footprint(const FootprintCtx& ctx, At at) {
+    Changing s = at(ctx.s), t = at(ctx.t), r{0.0F, 0.0F, 0.0F}, d{};
+    if (ctx.cube != 0) {
+        const FacePoint p = face_point(s, t, at(ctx.r));
+        s = p.a;
+        t = p.b;
+        d = p.m;
+    } else {
+        if (ctx.r >= 0) r = at(ctx.r);
+        d = at(ctx.q);
+    }
+    const auto square = [&](float Changing::*along) {
+        const auto texels = [&](const Changing& c, float scale) {
+            const float u = c.value / d.value;
+            return ((c.*along - u * (d.*along)) / d.value) * scale;
+        };
+        const float x = texels(s, ctx.scale[0]), y = texels(t, ctx.scale[1]);
+        const float flat = x * x + y * y;
+        if (ctx.cube != 0 || ctx.r < 0) return flat;
+        const float z = texels(r, ctx.scale[2]);
+        return flat + z * z;
+    };
+    return maximum(square(&Changing::dx), square(&Changing::dy));
+}
+
+void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
+    for (int k = 0; k < ctx.runs.run_count; ++k) {
+        const Run& run = ctx.runs.runs[k];
+        for (int i = run.first; i < run.first + run.count; ++i) {
+            const auto x = static_cast<float>(tile_x(packet.pixels[i]) + run.offset_x);
+            const auto y = static_cast<float>(tile_y(packet.pixels[i]) + run.offset_y);
+            const auto at = [&](int attribute) -> Changing {
+                const AttributePlane& p = run.planes[attribute + 1];
+                return {(p.origin + p.dx * x) + p.dy * y, p.dx, p.dy};
+            };
+            attribute(packet, ctx.footprint.out)[i] = footprint(ctx.footprint, at);
+        }
+    }
+}
+
+void quad_footprint(Packet& packet, const QuadFootprintCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const int left = i & ~1, upper = i & ~2;
+        const auto at = [&](int k) -> Changing {
+            if (k < 0) return {1.0F, 0.0F, 0.0F};
+            const float* a = attribute(packet, k);
+            return {a[i], a[left + 1] - a[left], a[upper + 2] - a[upper]};
+        };
+        attribute(packet, ctx.footprint.out)[i] = footprint(ctx.footprint, at);
+    }
+}
+
+void level_of_detail(Packet& packet, const LevelOfDetailCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const float f = minimum(maximum(attribute(packet, ctx.footprint)[i], 0x1p-64F), 0x1p64F);
+        std::int32_t bits;
+        std::memcpy(&bits, &f, sizeof bits);
+        Int lambda = Int{128} * ((bits >> 23) - 127) + ctx.bias;
+        for (const std::int32_t step : kLog2Step) lambda += step <= (bits & 0x7fffff) ? 1 : 0;
+        plane(packet, ctx.plane)[i] = static_cast<std::int16_t>(clamp(lambda, 0, ctx.max));
+    }
+}
+
+int chosen_level(LevelChoice choice, int lambda, int last) {
+    switch (choice) {
+        case LevelChoice::base:
+            return 0;
+        case LevelChoice::nearest:
+            return std::min((lambda + 127) >> 8, last);
+        case LevelChoice::floor:
+            return lambda >> 8;
+        case LevelChoice::ceiling:
+            return std::min((lambda >> 8) + 1, last);
+    }
+    return 0;
+}
+
+std::int32_t slice_behind(std::int32_t slice, std::int32_t depth, AddressMode mode) {
+    const std::int32_t next = slice + 1;
+    if (mode == AddressMode::clamp_to_border) return std::min(next, depth);
+    if (next < depth) return next;
+    return mode == AddressMode::repeat ? 0 : depth - 1;
+}
+
+void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const int lambda = ctx.lambda < 0 ? 0 : plane(packet, ctx.lambda)[i];
+        const bool linear = (lambda > 0 ? ctx.min_linear : ctx.mag_linear) != 0;
+        const LevelAddressCtx::Level& level =
+            ctx.levels[chosen_level(ctx.choice, lambda, ctx.level_count - 1)];
+        const auto coordinate = [&](int k) {
+            const float c = attribute(packet, k)[i];
+            return ctx.q < 0 ? c : c / attribute(packet, ctx.q)[i];
+        };
+        const bool rectangle = ctx.rectangle != 0;
+        const TexelPosition s =
+            texel_position(coordinate(ctx.u), level.width, ctx.mode_s, linear, rectangle);
+        const TexelPosition t =
+            texel_position(coordinate(ctx.v), level.height, ctx.mode_t, linear, rectangle);
+        std::int32_t layer = ctx.face < 0 ? 0 : plane(packet, ctx.face)[i];
+        if (ctx.r >= 0) {
+            const TexelPosition r =
+                texel_position(coordinate(ctx.r), level.depth, ctx.mode_r, linear, false);
+            layer = ctx.behind != 0 ? slice_behind(r.texel, level.depth, ctx.mode_r) : r.texel;
+            if (ctx.slice_weight >= 0) plane(packet, ctx.slice_weight)[i] = r.weight;
+        }
+        packet.texel[i] = level.offset + t.texel * ctx.pitch + s.texel * ctx.texel_bytes +
+                          layer * ctx.layer_bytes;
         packet.weight_x[i] = s.weight;
         packet.weight_y[i] = t.weight;
     }
@@ -379,8 +548,68 @@ void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
             const Int value =
                 Model::filter(texel(upper), texel(upper + 4), texel(lower), texel(lower + 4),
                               packet.weight_x[i], packet.weight_y[i]);
-            plane(packet, ctx.plane[k / 4] + c)[i] =
-                static_cast<std::int16_t>(Model::texel_code(value, ctx.is_signed[k / 4] != 0));
+            plane(packet, ctx.plane[k / 4] + c)[i] = static_cast<std::int16_t>(
+                Model::texel_code(value, (ctx.is_signed[k / 4] >> c & 1) != 0));
+        }
+    }
+}
+
+Int word_at(const std::uint8_t* texels, std::ptrdiff_t offset) {
+    std::int16_t word;
+    std::memcpy(&word, texels + offset, sizeof word);
+    return word;
+}
+
+void fetch_hilo(Packet& packet, const FetchHiloCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const Int wx = packet.weight_x[i], wy = packet.weight_y[i];
+        for (int c = 0; c < 2; ++c) {
+            const auto row = [&](std::ptrdiff_t left) {
+                const Int l = word_at(ctx.texels, left + 2 * c);
+                const Int r = word_at(ctx.texels, left + 4 + 2 * c);
+                return shift_half_up((256 - wx) * l + wx * r, 8);
+            };
+            const Int top = row(packet.texel[i]), bottom = row(packet.texel[i] + ctx.pitch);
+            plane(packet, ctx.plane + c)[i] =
+                static_cast<std::int16_t>(shift_half_up((256 - wy) * top + wy * bottom, 8));
+        }
+    }
+}
+
+void fetch_words(Packet& packet, const FetchWordsCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const Int wx = packet.weight_x[i], wy = packet.weight_y[i];
+        for (int c = 0; c < 4; ++c) {
+            const auto row = [&](std::ptrdiff_t left) {
+                return (256 - wx) * word_at(ctx.texels, left + 2 * c) +
+                       wx * word_at(ctx.texels, left + 8 + 2 * c);
+            };
+            const Int top = row(packet.texel[i]), bottom = row(packet.texel[i] + ctx.pitch);
+            const Int x = shift_half_up((256 - wy) * top + wy * bottom, 16);
+            plane(packet, ctx.plane + c)[i] = static_cast<std::int16_t>((x + 32768 + 2) >> 2);
+        }
+    }
+}
+
+void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const Int w = plane(packet, ctx.weight)[i] & 255;
+        for (int c = 0; c < ctx.channels; ++c) {
+            const Int a = plane(packet, ctx.a + c)[i], b = plane(packet, ctx.b + c)[i];
+            const Int unit = (ctx.doubled >> c & 1) != 0 ? 2 : 1;
+            const Int n = shift_half_up((256 - w) * (a / unit) + w * (b / unit), 8);
+            plane(packet, ctx.out + c)[i] = static_cast<std::int16_t>(n * unit);
+        }
+    }
+}
+
+void hilo(Packet& packet, const HiloCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        for (int c = 0; c < 2; ++c) {
+            const int x = plane(packet, ctx.plane + c)[i];
+            attribute(packet, ctx.out + c)[i] = ctx.is_signed != 0
+                                                    ? static_cast<float>(x) / 32768.0F
+                                                    : static_cast<float>(x + 32768) / 65535.0F;
         }
     }
 }
@@ -690,6 +919,15 @@ const KernelTable& table_reference() noexcept {
         .cull = cull,
         .dim_nine_bit = dim<NineBit>,
         .dim_wide = dim<Wide>,
+        .cube_face = cube_face,
+        .plane_footprint = plane_footprint,
+        .quad_footprint = quad_footprint,
+        .level_of_detail = level_of_detail,
+        .level_address = level_address,
+        .fetch_hilo = fetch_hilo,
+        .fetch_words = fetch_words,
+        .blend_levels = blend_levels,
+        .hilo = hilo,
         .portion_nine_bit = portion<NineBit>,
         .portion_wide = portion<Wide>,
         .final_nine_bit = final_combiner<NineBit>,

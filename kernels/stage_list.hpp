@@ -14,29 +14,38 @@
     X(collect, CollectCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
-#define BURNISH_PACKET_STAGES(X)    \
-    X(attributes, AttributesCtx)    \
-    X(lighting, LightingCtx)        \
-    X(encode_nine_bit, EncodeCtx)   \
-    X(encode_wide, EncodeCtx)       \
-    X(address, AddressCtx)          \
-    X(fetch_nine_bit, FetchCtx)     \
-    X(fetch_wide, FetchCtx)         \
-    X(decode_nine_bit, DecodeCtx)   \
-    X(decode_wide, DecodeCtx)       \
-    X(affine, AffineCtx)            \
-    X(dot_product, DotCtx)          \
-    X(hemisphere, HemisphereCtx)    \
-    X(offset, OffsetCtx)            \
-    X(reflect, ReflectCtx)          \
-    X(quotient, QuotientCtx)        \
-    X(angle, AngleCtx)              \
-    X(cull, CullCtx)                \
-    X(dim_nine_bit, MagnitudeCtx)   \
-    X(dim_wide, MagnitudeCtx)       \
-    X(portion_nine_bit, PortionCtx) \
-    X(portion_wide, PortionCtx)     \
-    X(final_nine_bit, FinalCtx)     \
-    X(final_wide, FinalCtx)         \
-    X(store_nine_bit, StoreCtx)     \
+#define BURNISH_PACKET_STAGES(X)          \
+    X(attributes, AttributesCtx)          \
+    X(lighting, LightingCtx)              \
+    X(encode_nine_bit, EncodeCtx)         \
+    X(encode_wide, EncodeCtx)             \
+    X(address, AddressCtx)                \
+    X(fetch_nine_bit, FetchCtx)           \
+    X(fetch_wide, FetchCtx)               \
+    X(decode_nine_bit, DecodeCtx)         \
+    X(decode_wide, DecodeCtx)             \
+    X(affine, AffineCtx)                  \
+    X(dot_product, DotCtx)                \
+    X(hemisphere, HemisphereCtx)          \
+    X(offset, OffsetCtx)                  \
+    X(reflect, ReflectCtx)                \
+    X(quotient, QuotientCtx)              \
+    X(angle, AngleCtx)                    \
+    X(cull, CullCtx)                      \
+    X(dim_nine_bit, MagnitudeCtx)         \
+    X(dim_wide, MagnitudeCtx)             \
+    X(cube_face, CubeFaceCtx)             \
+    X(plane_footprint, PlaneFootprintCtx) \
+    X(quad_footprint, QuadFootprintCtx)   \
+    X(level_of_detail, LevelOfDetailCtx)  \
+    X(level_address, LevelAddressCtx)     \
+    X(fetch_hilo, FetchHiloCtx)           \
+    X(fetch_words, FetchWordsCtx)         \
+    X(blend_levels, BlendLevelsCtx)       \
+    X(hilo, HiloCtx)                      \
+    X(portion_nine_bit, PortionCtx)       \
+    X(portion_wide, PortionCtx)           \
+    X(final_nine_bit, FinalCtx)           \
+    X(final_wide, FinalCtx)               \
+    X(store_nine_bit, StoreCtx)           \
     X(store_wide, StoreCtx)

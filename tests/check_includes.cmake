@@ -43,7 +43,7 @@ rule("^src/([^c]|core/[^p])" DENY "<(tbb|oneapi)/" "threads sit behind core/para
 rule("^src/include/" ALLOW "^(${std}|<glm/.*>|${public})$" "public: std, GLM, <burnish/...>")
 
 # Kernels: the contract is plain data; what is compiled per ISA sees no inline function of others.
-set(contract "(packet|packet_stages|texture_stages|tile_stages|stage_list|kernel_table)\\.hpp")
+set(contract "(packet|packet_stages|log2_steps|texture_stages|tile_stages|stage_list|kernel_table)\\.hpp")
 rule("^kernels/${contract}" ALLOW "^(<cstdint>|<cstddef>|\"kernels/${contract}\")$"
   "contract: <cstdint>, <cstddef>, contract")
 rule("^src/" DENY "\"kernels/([^pskt]|simd)" "src/ sees the contract only")

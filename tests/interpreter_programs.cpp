@@ -193,12 +193,12 @@ struct FetchingProgram {
         shading.program = bind(program, machine, states);
         int planes = shading.program.plane_count;
         for (const BoundFetch& fetch : shading.program.fetches) {
-            SamplePlan plan;
-            plan.next_attribute = 3;
-            plan.next_register = shading.program.plane_count;
+            SamplePlan sampling{machine.numbers, 0, shading.program.plane_count};
+            FreePlanes free{kSampleAttributes, shading.program.plane_count + kSamplePlanes};
             const Texture& texture = *textures[static_cast<std::size_t>(fetch.unit)];
-            shading.stage_fetches.push_back({fetch.before, plan_stage_fetch(fetch, texture, plan)});
-            planes = std::max(planes, plan.next_register);
+            shading.stage_fetches.push_back(
+                {fetch.before, plan_stage_fetch(fetch, texture, sampling, free)});
+            planes = std::max(planes, free.reg);
         }
         shading.program.plane_count = planes;
     }
@@ -230,7 +230,7 @@ void check_fetches(const KernelTable& table, const Machine& machine, unsigned pr
         memory.packet.texel = texel.data();
         memory.packet.weight_x = weights.data();
         memory.packet.weight_y = weights.data() + kPacketSize;
-        run_program(bound.shading, table, memory.packet);
+        run_program(bound.shading, table, {}, memory.packet);
         const auto fetch = [&](const StageFetch& f, const std::array<float, 3>& at) {
             const auto unit =
                 static_cast<std::size_t>(f.destination) - static_cast<std::size_t>(Register::tex0);

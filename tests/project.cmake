@@ -19,7 +19,8 @@ burnish_compile_alone(test_public_headers ${public_headers})
 target_link_libraries(test_public_headers PRIVATE burnish)
 
 burnish_compile_alone(test_contract_headers kernels/kernel_table.hpp kernels/packet.hpp
-  kernels/packet_stages.hpp kernels/stage_list.hpp kernels/texture_stages.hpp kernels/tile_stages.hpp)
+  kernels/log2_steps.hpp kernels/packet_stages.hpp kernels/stage_list.hpp
+  kernels/texture_stages.hpp kernels/tile_stages.hpp)
 target_include_directories(test_contract_headers PRIVATE ${PROJECT_SOURCE_DIR})
 burnish_test_symbols(test_contract_headers)
 

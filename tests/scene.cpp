@@ -205,10 +205,7 @@ TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::vector<std::string> texts{"[machine]\nprofile = \"double\"\n",
                                          "[machine]\nfilter_order = \"after\"\n",
                                          "[machine]\nhalf_vector = \"cube:64\"\n",
-                                         texture + "mipmaps = \"box\"\n",
-                                         texture + "format = \"hilo16\"\n",
-                                         texture + "target = \"cube\"\n",
-                                         texture + "lod_bias = 1.0\n",
+                                         texture + "mipmaps = \"toksvig\"\n",
                                          material + "alpha_test = \"greater\"\n",
                                          material + "normal_y = \"down\"\n",
                                          object + "blend = \"alpha\"\n"};

@@ -137,7 +137,7 @@ TEST(Trace, TapsAndWeights) {
     EXPECT_EQ((Four{fetch.x0, fetch.y0, fetch.x1, fetch.y1}), (Four{0, 2, 1, 3}));
     EXPECT_EQ(fetch.weight_x, 192);
     EXPECT_EQ(fetch.weight_y, 64);
-    using Texel = std::array<std::uint8_t, 4>;
+    using Texel = std::array<std::uint16_t, 4>;
     EXPECT_EQ(fetch.taps[0], (Texel{10, 100, 255, 128}));
     EXPECT_EQ(fetch.taps[1], (Texel{50, 100, 255, 128}));
     EXPECT_EQ(fetch.taps[2], (Texel{90, 100, 255, 128}));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "app/stats.hpp"
@@ -19,7 +20,7 @@ std::string json(int x) {
 std::string json(std::uint32_t x) {
     return fmt::format("{}", x);
 }
-std::string json(std::uint8_t x) {
+std::string json(std::uint16_t x) {
     return fmt::format("{}", x);
 }
 std::string json(bool x) {
@@ -66,14 +67,23 @@ std::string unit_json(const TracedUnit& u) {
                        json_list(u.numbers, interpolant_json));
 }
 
+/// Members of an object, without braces.
+std::string taps_json(const TracedTaps& t) {
+    return fmt::format(
+        "\"level\": {}, \"layer\": {}, \"texels\": [[{}, {}], [{}, {}], [{}, {}], [{}, {}]], "
+        "\"taps\": {}, \"weights\": [{}, {}]",
+        t.level, t.layer, t.x0, t.y0, t.x1, t.y0, t.x0, t.y1, t.x1, t.y1,
+        json_list(t.taps, [](const auto& tap) { return json_list(tap); }), t.weight_x, t.weight_y);
+}
+
 std::string fetch_json(const TracedFetch& f) {
+    const auto maybe = [](const std::optional<TracedNumber>& n) { return n ? json(*n) : "null"; };
     return fmt::format(
         "{{\"unit\": {}, \"width\": {}, \"height\": {}, \"filter\": \"{}\", \"u\": {}, \"v\": {}, "
-        "\"texels\": [[{}, {}], [{}, {}], [{}, {}], [{}, {}]], \"taps\": {}, "
-        "\"weights\": [{}, {}], \"codes\": {}, {}}}",
-        f.unit, f.width, f.height, f.sampler.filter == Filter::linear ? "linear" : "nearest",
-        json(f.u), json(f.v), f.x0, f.y0, f.x1, f.y0, f.x0, f.y1, f.x1, f.y1,
-        json_list(f.taps, [](const auto& tap) { return json_list(tap); }), f.weight_x, f.weight_y,
+        "\"r\": {}, \"level_of_detail\": {}, {}, \"further\": {}, \"codes\": {}, {}}}",
+        f.unit, f.width, f.height, filter_name(f.sampler.filter), json(f.u), json(f.v), maybe(f.r),
+        maybe(f.lod), taps_json(f),
+        json_list(f.further, [](const TracedTaps& t) { return "{" + taps_json(t) + "}"; }),
         json_list(f.codes), json_members(f.color));
 }
 

@@ -13,5 +13,7 @@ std::string trace_json(const PixelTrace& trace, const Scene& scene);
 
 /// "rgba8", "rgba16" or "rgba32f", as in scene files.
 const char* format_name(PixelFormat format);
+/// As in scene files.
+const char* filter_name(Filter filter);
 
 }  // namespace burnish::app

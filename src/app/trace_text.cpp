@@ -98,31 +98,80 @@ std::string unit_text(const TracedUnit& unit) {
 }
 
 const char* wrap_name(Wrap wrap) {
-    return wrap == Wrap::repeat ? "repeat" : "clamp_to_edge";
+    switch (wrap) {
+        case Wrap::repeat:
+            return "repeat";
+        case Wrap::clamp_to_edge:
+            return "clamp_to_edge";
+        case Wrap::clamp_to_border:
+            return "clamp_to_border";
+        case Wrap::mirrored_repeat:
+            break;
+    }
+    return "mirrored_repeat";
+}
+
+std::string number_text(const char* name, const TracedNumber& n) {
+    return fmt::format("  {} {:.8f}, exact {:.8f}, error {:.1e}\n", name, n.value, n.exact,
+                       n.error());
+}
+
+std::string taps_text(const TracedTaps& taps) {
+    std::string text =
+        fmt::format("  weights: right {}/256, lower {}/256\n", taps.weight_x, taps.weight_y);
+    for (std::size_t tap = 0; tap < 4; ++tap) {
+        const auto& bits = taps.taps[tap];
+        const std::string place =
+            fmt::format("({}, {})", tap % 2 == 0 ? taps.x0 : taps.x1, tap < 2 ? taps.y0 : taps.y1);
+        text += fmt::format("  texel {:<14}{:>4}{:>4}{:>4}{:>4}\n", place, bits[0], bits[1],
+                            bits[2], bits[3]);
+    }
+    return text;
+}
+
+/// Where the taps are, for textures of several levels, faces or slices.
+std::string place_text(const TracedFetch& f, const TracedTaps& taps) {
+    if (f.target == TextureTarget::cube) {
+        return fmt::format("  level {}, face {}\n", taps.level, taps.layer);
+    }
+    if (f.target == TextureTarget::three_d) {
+        return fmt::format("  level {}, slice {}\n", taps.level, taps.layer);
+    }
+    return f.lod ? fmt::format("  level {}\n", taps.level) : "";
 }
 
 std::string fetch_text(const TracedFetch& f, const TableWriter& table) {
-    std::string text =
-        fmt::format("fetch of unit {}: {} x {} texels, {}, {} {}\n", f.unit, f.width, f.height,
-                    f.sampler.filter == Filter::linear ? "linear" : "nearest",
-                    wrap_name(f.sampler.wrap_s), wrap_name(f.sampler.wrap_t));
-    text +=
-        fmt::format("  u {:.8f}, exact {:.8f}, error {:.1e}\n", f.u.value, f.u.exact, f.u.error());
-    text +=
-        fmt::format("  v {:.8f}, exact {:.8f}, error {:.1e}\n", f.v.value, f.v.exact, f.v.error());
-    text += fmt::format("  weights: right {}/256, lower {}/256\n", f.weight_x, f.weight_y);
-    for (std::size_t tap = 0; tap < 4; ++tap) {
-        const auto& bytes = f.taps[tap];
-        const std::string place =
-            fmt::format("({}, {})", tap % 2 == 0 ? f.x0 : f.x1, tap < 2 ? f.y0 : f.y1);
-        text += fmt::format("  texel {:<14}{:>4}{:>4}{:>4}{:>4}\n", place, bytes[0], bytes[1],
-                            bytes[2], bytes[3]);
-    }
+    std::string text = fmt::format("fetch of unit {}: {} x {} texels, {}, {} {}\n", f.unit, f.width,
+                                   f.height, filter_name(f.sampler.filter),
+                                   wrap_name(f.sampler.wrap_s), wrap_name(f.sampler.wrap_t));
+    text += number_text("u", f.u) + number_text("v", f.v);
+    if (f.r) text += number_text("r", *f.r);
+    if (f.lod) text += number_text("level of detail", *f.lod);
+    text += place_text(f, f) + taps_text(f);
+    for (const TracedTaps& taps : f.further) text += place_text(f, taps) + taps_text(taps);
     const std::string name = fmt::format("  tex{}", f.unit);
     return text + table.heading("") + table.row(name, f.codes, f.color, kAll);
 }
 
 }  // namespace
+
+const char* filter_name(Filter filter) {
+    switch (filter) {
+        case Filter::nearest:
+            return "nearest";
+        case Filter::linear:
+            return "linear";
+        case Filter::nearest_mipmap_nearest:
+            return "nearest_mipmap_nearest";
+        case Filter::linear_mipmap_nearest:
+            return "linear_mipmap_nearest";
+        case Filter::nearest_mipmap_linear:
+            return "nearest_mipmap_linear";
+        case Filter::linear_mipmap_linear:
+            break;
+    }
+    return "linear_mipmap_linear";
+}
 
 const char* format_name(PixelFormat format) {
     switch (format) {

@@ -10,6 +10,7 @@
 #include <burnish/error.hpp>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <span>
@@ -55,22 +56,50 @@ void check_size(const OIIO::ImageSpec& spec, const std::string& name) {
                                           std::to_string(Texture::kMaxSize) + " a side");
 }
 
-/// Widens 1 or 2 channels to grey, or 3 to opaque, in place; texels lie `channels` bytes apart.
-void spread_channels(std::vector<std::uint8_t>& bytes, int channels) {
+/// Widens 1 or 2 channels to grey, or 3 to opaque, in place; texels lie `channels` values apart.
+template <class Value>
+void spread_channels(std::vector<Value>& values, int channels) {
     if (channels == 4) return;
     const auto from = static_cast<std::size_t>(channels);
     // From the end, so that nothing is overwritten before it is read.
-    for (std::size_t i = bytes.size() / 4; i-- > 0;) {
-        const std::uint8_t* source = bytes.data() + i * from;
-        const std::uint8_t red = source[0];
-        const std::uint8_t green = channels == 3 ? source[1] : red;
-        const std::uint8_t blue = channels == 3 ? source[2] : red;
-        const std::uint8_t alpha = channels == 2 ? source[1] : std::uint8_t{255};
-        std::uint8_t* target = bytes.data() + i * 4;
+    for (std::size_t i = values.size() / 4; i-- > 0;) {
+        const Value* source = values.data() + i * from;
+        const Value red = source[0];
+        const Value green = channels == 3 ? source[1] : red;
+        const Value blue = channels == 3 ? source[2] : red;
+        const Value alpha = channels == 2 ? source[1] : std::numeric_limits<Value>::max();
+        Value* target = values.data() + i * 4;
         target[0] = red;
         target[1] = green;
         target[2] = blue;
         target[3] = alpha;
+    }
+}
+
+/// Bytes or words of an image file as r, g, b, a.
+template <class Image>
+Image read_pixels(const std::filesystem::path& path, OIIO::TypeDesc type) {
+    require_readable_file(path);
+    require_sound_png(path);
+    const std::string name = path.string();
+    const OIIO::ImageSpec config = keep_alpha_apart();
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
+    if (!input)
+        throw Error(ErrorCode::bad_input,
+                    name + ": not an image that can be read: " + one_line(OIIO::geterror()));
+    check_size(input->spec(), name);
+    const int channels = std::min(input->spec().nchannels, 4);
+    try {
+        Image image(input->spec().width, input->spec().height);
+        const bool ok = input->read_image(0, 0, 0, channels, type, image.rgba.data());
+        // A truncated JPEG or TIFF counts as read; only the pending error tells.
+        if (!ok || input->has_error())
+            throw Error(ErrorCode::bad_input,
+                        name + ": damaged image: " + one_line(input->geterror()));
+        spread_channels(image.rgba, channels);
+        return image;
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::limit, name + ": too large for the memory");
     }
 }
 
@@ -167,28 +196,11 @@ void write_source(const Source& source, const std::filesystem::path& path) {
 }  // namespace
 
 Image8 read_image_file(const std::filesystem::path& path) {
-    require_readable_file(path);
-    require_sound_png(path);
-    const std::string name = path.string();
-    const OIIO::ImageSpec config = keep_alpha_apart();
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
-    if (!input)
-        throw Error(ErrorCode::bad_input,
-                    name + ": not an image that can be read: " + one_line(OIIO::geterror()));
-    check_size(input->spec(), name);
-    const int channels = std::min(input->spec().nchannels, 4);
-    try {
-        Image8 image(input->spec().width, input->spec().height);
-        const bool ok = input->read_image(0, 0, 0, channels, OIIO::TypeUInt8, image.rgba.data());
-        // A truncated JPEG or TIFF counts as read; only the pending error tells.
-        if (!ok || input->has_error())
-            throw Error(ErrorCode::bad_input,
-                        name + ": damaged image: " + one_line(input->geterror()));
-        spread_channels(image.rgba, channels);
-        return image;
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::limit, name + ": too large for the memory");
-    }
+    return read_pixels<Image8>(path, OIIO::TypeUInt8);
+}
+
+Image16 read_image16_file(const std::filesystem::path& path) {
+    return read_pixels<Image16>(path, OIIO::TypeUInt16);
 }
 
 void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path) {

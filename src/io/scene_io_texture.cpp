@@ -4,7 +4,10 @@
 #include <array>
 #include <burnish/error.hpp>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/nearest.hpp"
 #include "io/image_io.hpp"
@@ -14,12 +17,52 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Filter>, 2> kFilters{
-    {{"nearest", Filter::nearest}, {"linear", Filter::linear}}};
-constexpr std::array<std::pair<std::string_view, TexelFormat>, 2> kTexelFormats{
-    {{"rgba8", TexelFormat::rgba8}, {"signed_rgba8", TexelFormat::signed_rgba8}}};
-constexpr std::array<std::pair<std::string_view, Wrap>, 2> kWraps{
-    {{"repeat", Wrap::repeat}, {"clamp_to_edge", Wrap::clamp_to_edge}}};
+constexpr std::array<std::pair<std::string_view, Filter>, 6> kFilters{
+    {{"nearest", Filter::nearest},
+     {"linear", Filter::linear},
+     {"nearest_mipmap_nearest", Filter::nearest_mipmap_nearest},
+     {"linear_mipmap_nearest", Filter::linear_mipmap_nearest},
+     {"nearest_mipmap_linear", Filter::nearest_mipmap_linear},
+     {"linear_mipmap_linear", Filter::linear_mipmap_linear}}};
+constexpr Names<Filter> kMagFilters(kFilters.data(), 2);
+constexpr std::array<std::pair<std::string_view, TexelFormat>, 22> kTexelFormats{
+    {{"rgba8", TexelFormat::rgba8},
+     {"rgb8", TexelFormat::rgb8},
+     {"luminance8", TexelFormat::luminance8},
+     {"luminance8_alpha8", TexelFormat::luminance8_alpha8},
+     {"intensity8", TexelFormat::intensity8},
+     {"alpha8", TexelFormat::alpha8},
+     {"r8", TexelFormat::r8},
+     {"signed_rgba8", TexelFormat::signed_rgba8},
+     {"signed_rgb8", TexelFormat::signed_rgb8},
+     {"signed_rgb8_unsigned_alpha8", TexelFormat::signed_rgb8_unsigned_alpha8},
+     {"signed_luminance8", TexelFormat::signed_luminance8},
+     {"signed_luminance8_alpha8", TexelFormat::signed_luminance8_alpha8},
+     {"signed_intensity8", TexelFormat::signed_intensity8},
+     {"signed_alpha8", TexelFormat::signed_alpha8},
+     {"hilo16", TexelFormat::hilo16},
+     {"signed_hilo16", TexelFormat::signed_hilo16},
+     {"hilo8", TexelFormat::hilo8},
+     {"signed_hilo8", TexelFormat::signed_hilo8},
+     {"dsdt8", TexelFormat::dsdt8},
+     {"dsdt8_mag8", TexelFormat::dsdt8_mag8},
+     {"dsdt8_mag8_intensity8", TexelFormat::dsdt8_mag8_intensity8},
+     {"rgba16", TexelFormat::rgba16}}};
+constexpr std::array<std::pair<std::string_view, TextureTarget>, 5> kTargets{
+    {{"2d", TextureTarget::two_d},
+     {"1d", TextureTarget::one_d},
+     {"rectangle", TextureTarget::rectangle},
+     {"cube", TextureTarget::cube},
+     {"3d", TextureTarget::three_d}}};
+constexpr std::array<std::pair<std::string_view, Wrap>, 4> kWraps{
+    {{"repeat", Wrap::repeat},
+     {"clamp_to_edge", Wrap::clamp_to_edge},
+     {"clamp_to_border", Wrap::clamp_to_border},
+     {"mirrored_repeat", Wrap::mirrored_repeat}}};
+
+enum class MipmapSource { none, box, files };
+constexpr std::array<std::pair<std::string_view, MipmapSource>, 3> kMipmaps{
+    {{"none", MipmapSource::none}, {"box", MipmapSource::box}, {"files", MipmapSource::files}}};
 
 using BrushedMap = Image8 BrushedMaps::*;
 constexpr std::array<std::pair<std::string_view, BrushedMap>, 4> kBrushedMaps{
@@ -40,58 +83,169 @@ Wrap wrap_named(const Section& section, const std::string& name) {
     section.fail_unknown_word("wrap", name, known);
 }
 
-Sampler read_sampler(const Section& section) {
+Sampler read_sampler(const Section& section, TextureTarget target) {
     Sampler sampler;
+    if (target == TextureTarget::rectangle) sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     sampler.filter = section.choice<Filter>("filter", kFilters).value_or(sampler.filter);
+    sampler.mag_filter = section.choice<Filter>("mag_filter", kMagFilters);
+    sampler.lod_bias = section.number("lod_bias", {-16.0, 15.99}).value_or(0.0F);
+    if (const auto border = section.vec4("border_color", {-1.0, 1.0}))
+        sampler.border = {border->r, border->g, border->b, border->a};
+    if (target == TextureTarget::cube && section.has("wrap"))
+        section.fail("wrap", fmt::format("'wrap' in {} of a cube map, whose faces end at their "
+                                         "edges, expected none",
+                                         section.label()));
     if (const auto wraps = section.texts("wrap")) {
-        if (wraps->size() != 2)
-            section.fail("wrap",
-                         fmt::format("'wrap' in {} has {} elements, expected 2: for s and t",
-                                     section.label(), wraps->size()));
-        sampler.wrap_s = wrap_named(section, (*wraps)[0]);
-        sampler.wrap_t = wrap_named(section, (*wraps)[1]);
+        const std::size_t count = target == TextureTarget::one_d     ? 1
+                                  : target == TextureTarget::three_d ? 3
+                                                                     : 2;
+        if (wraps->size() != count && !(count == 1 && wraps->size() == 2))
+            section.fail("wrap", fmt::format("'wrap' in {} has {} elements, expected {}: for {}",
+                                             section.label(), wraps->size(), count,
+                                             count == 3   ? "s, t and r"
+                                             : count == 2 ? "s and t"
+                                                          : "s"));
+        Wrap* const to[] = {&sampler.wrap_s, &sampler.wrap_t, &sampler.wrap_r};
+        for (std::size_t k = 0; k < wraps->size(); ++k) *to[k] = wrap_named(section, (*wraps)[k]);
     }
     return sampler;
 }
 
-TexelFormat read_format(const Section& section) {
-    for (const char* later : {"r8", "hilo16", "signed_hilo16", "dsdt8", "dsdt8_mag8",
-                              "dsdt8_mag8_intensity8", "rgba16"}) {
-        if (section.text("format").value_or("") == later) section.refuse({"format"});
+/// Sides of a level.
+struct LevelSize {
+    int width, height, layers;
+};
+
+/// How many images each level has, down to a single texel.
+std::vector<LevelSize> chain_of(LevelSize size, TextureTarget target) {
+    std::vector<LevelSize> chain{size};
+    const bool slices = target == TextureTarget::three_d;
+    while (size.width > 1 || size.height > 1 || (slices && size.layers > 1)) {
+        size.width = std::max(size.width / 2, 1);
+        size.height = std::max(size.height / 2, 1);
+        if (slices) size.layers = std::max(size.layers / 2, 1);
+        chain.push_back(size);
     }
-    const TexelFormat format =
-        section.choice<TexelFormat>("format", kTexelFormats).value_or(TexelFormat::rgba8);
-    if (format != TexelFormat::rgba8 && section.has("generator"))
-        section.fail("format", fmt::format("'format' in {}, expected rgba8 for a generated map",
-                                           section.label()));
-    return format;
+    return chain;
 }
 
-Image8 read_texels(const Section& section) {
+/// Images from the numbers of a scene: faces or slices one after the other.
+template <class Image>
+std::vector<Image> read_texels(const Section& section, int layers, bool is_one_d) {
+    using Value = typename decltype(Image::rgba)::value_type;
     const auto width = section.integer("width", 1, Texture::kMaxSize);
-    const auto height = section.integer("height", 1, Texture::kMaxSize);
+    const auto given_height = section.integer("height", 1, Texture::kMaxSize);
+    const std::optional<int> height = is_one_d ? given_height.value_or(1) : given_height;
     if (!width || !height)
         section.fail("texels",
                      fmt::format("'texels' in {} without a size, expected width and height",
                                  section.label()));
     const std::size_t count =
         4 * static_cast<std::size_t>(*width) * static_cast<std::size_t>(*height);
-    const auto values = section.numbers("texels", count, count, {0.0, 255.0});
+    const std::size_t all = count * static_cast<std::size_t>(layers);
+    constexpr int kHighest = std::numeric_limits<Value>::max();
+    const auto values = section.numbers("texels", all, all, {0.0, kHighest});
     // The count was checked against the file, so a huge size costs nothing.
-    Image8 image(*width, *height);
-    for (std::size_t i = 0; i < count; ++i) {
+    std::vector<Image> images(static_cast<std::size_t>(layers), Image(*width, *height));
+    for (std::size_t i = 0; i < all; ++i) {
         const float value = (*values)[i];
-        image.rgba[i] = static_cast<std::uint8_t>(value);
-        if (static_cast<float>(image.rgba[i]) != value)
+        const auto code = static_cast<Value>(value);
+        images[i / count].rgba[i % count] = code;
+        if (static_cast<float>(code) != value)
             section.fail("texels",
                          fmt::format("'texels' in {} has the value {}, expected an integer "
-                                     "of 0 .. 255",
-                                     section.label(), value));
+                                     "of 0 .. {}",
+                                     section.label(), value, kHighest));
     }
-    return image;
+    return images;
 }
 
-NamedTexture read_generated(const Section& section, const Sampler& sampler, BrushedSets& sets) {
+void read_file(const std::filesystem::path& path, Image8& image) {
+    image = read_image_file(path);
+}
+void read_file(const std::filesystem::path& path, Image16& image) {
+    image = read_image16_file(path);
+}
+
+/// Reads the files that `key` names.
+template <class Image>
+void read_files(const Section& section, std::string_view key, const std::vector<std::string>& names,
+                const std::filesystem::path& directory, std::vector<Image>& images) {
+    for (const std::string& name : names) {
+        try {
+            read_file(directory / name, images.emplace_back());
+        } catch (const Error& error) {
+            throw Error(error.code(), section.place(key) + ": " + error.what());
+        }
+    }
+}
+
+void require_count(const Section& section, std::string_view key, std::size_t found,
+                   std::size_t expected, std::string_view of_what) {
+    if (found != expected)
+        section.fail(key, fmt::format("'{}' in {} names {} files, expected {}: {}", key,
+                                      section.label(), found, expected, of_what));
+}
+
+/// Level 0 from the key that brings it.
+template <class Image>
+std::vector<Image> read_base(const Section& section, const TextureDescription& description,
+                             const std::filesystem::path& directory) {
+    const bool cube = description.target == TextureTarget::cube;
+    const int layers = cube ? 6 : description.depth;
+    if (section.has("texels"))
+        return read_texels<Image>(section, layers, description.target == TextureTarget::one_d);
+    std::vector<Image> images;
+    if (section.has("files")) {
+        const std::vector<std::string> names = section.texts("files").value();
+        require_count(section, "files", names.size(), static_cast<std::size_t>(layers),
+                      cube ? "faces +x -x +y -y +z -z" : "one for every slice");
+        read_files(section, "files", names, directory, images);
+    } else {
+        if (layers != 1)
+            section.fail("file", fmt::format("'file' in {} with {} {}, expected 'files'",
+                                             section.label(), layers, cube ? "faces" : "slices"));
+        read_files(section, "file", {section.text("file").value()}, directory, images);
+    }
+    return images;
+}
+
+template <class Image>
+NamedTexture read_images(const Section& section, TextureDescription description,
+                         MipmapSource mipmaps, const std::filesystem::path& directory) {
+    std::vector<Image> images = read_base<Image>(section, description, directory);
+    description.box_mipmaps = mipmaps == MipmapSource::box;
+    if (mipmaps == MipmapSource::files) {
+        const std::vector<std::string> names = section.texts("mip_files").value();
+        const std::vector<LevelSize> chain =
+            chain_of({images.front().width, images.front().height,
+                      description.target == TextureTarget::cube ? 6 : description.depth},
+                     description.target);
+        // A chain may stop early, but only after a whole level.
+        std::size_t whole = 0, level = 1;
+        while (level < chain.size() && whole < names.size())
+            whole += static_cast<std::size_t>(chain[level++].layers);
+        require_count(section, "mip_files", names.size(), whole, "whole levels, 1 first");
+        read_files(section, "mip_files", names, directory, images);
+    }
+    try {
+        return {std::make_shared<const Texture>(std::span<const Image>(images), description), 0.0F};
+    } catch (const Error& error) {
+        throw Error(error.code(), section.place("name") + ": " + error.what());
+    }
+}
+
+NamedTexture read_generated(const Section& section, TextureDescription description,
+                            MipmapSource mipmaps, BrushedSets& sets) {
+    const auto only = [&](bool fits, const char* key, const char* expected) {
+        if (!fits)
+            section.fail(key, fmt::format("'{}' in {}, expected {} for a generated map", key,
+                                          section.label(), expected));
+    };
+    only(description.format == TexelFormat::rgba8, "format", "rgba8");
+    only(description.target == TextureTarget::two_d, "target", "2d");
+    only(mipmaps != MipmapSource::files, "mipmaps", "none or box");
+    description.box_mipmaps = mipmaps == MipmapSource::box;
     const std::array<std::string_view, 1> generators{"brushed"};
     const std::string generator = section.text("generator").value();
     if (generator != generators[0]) section.fail_unknown_word("generator", generator, generators);
@@ -107,35 +261,50 @@ NamedTexture read_generated(const Section& section, const Sampler& sampler, Brus
     auto set = sets.find(key);
     if (set == sets.end()) set = sets.emplace(key, brushed_maps(key.first, key.second)).first;
     const bool vectors = map == &BrushedMaps::tangent || map == &BrushedMaps::bitangent;
-    return {std::make_shared<const Texture>(set->second.*map, sampler),
+    return {std::make_shared<const Texture>(std::span(&(set->second.*map), 1), description),
             vectors ? set->second.map_scale : 0.0F};
+}
+
+MipmapSource read_mipmaps(const Section& section) {
+    for (const char* later : {"normalize", "toksvig", "lean", "moments"}) {
+        if (section.text("mipmaps").value_or("") == later) section.refuse({"mipmaps"});
+    }
+    const MipmapSource mipmaps =
+        section.choice<MipmapSource>("mipmaps", kMipmaps).value_or(MipmapSource::none);
+    if ((mipmaps == MipmapSource::files) != section.has("mip_files"))
+        section.fail("mip_files", fmt::format("'mip_files' and mipmaps = \"files\" in {} go "
+                                              "together, expected both or neither",
+                                              section.label()));
+    return mipmaps;
 }
 
 NamedTexture read_texture(const Section& section, const std::filesystem::path& directory,
                           BrushedSets& sets) {
-    section.refuse({"mip_files"});
-    section.accept_only("target", "2d");
-    section.accept_only("mipmaps", "none");
-    if (section.number("lod_bias").value_or(0.0F) != 0.0F) section.refuse({"lod_bias"});
-    const int sources = static_cast<int>(section.has("file")) +
-                        static_cast<int>(section.has("texels")) +
-                        static_cast<int>(section.has("generator"));
+    int sources = 0;
+    for (const char* key : {"file", "files", "texels", "generator"})
+        sources += section.has(key) ? 1 : 0;
     if (sources != 1)
         section.fail("name",
-                     fmt::format("{} has {} sources of texels, expected one of file, texels, "
-                                 "generator",
+                     fmt::format("{} has {} sources of texels, expected one of file, files, "
+                                 "texels, generator",
                                  section.label(), sources));
-    const Sampler sampler = read_sampler(section);
-    const TexelFormat format = read_format(section);
-    if (section.has("generator")) return read_generated(section, sampler, sets);
-    if (section.has("texels"))
-        return {std::make_shared<const Texture>(read_texels(section), sampler, format), 0.0F};
-    const std::filesystem::path file = directory / section.text("file").value();
-    try {
-        return {std::make_shared<const Texture>(read_image_file(file), sampler, format), 0.0F};
-    } catch (const Error& error) {
-        throw Error(error.code(), section.place("file") + ": " + error.what());
-    }
+    TextureDescription description;
+    description.target =
+        section.choice<TextureTarget>("target", kTargets).value_or(TextureTarget::two_d);
+    if (description.target != TextureTarget::three_d && section.has("depth"))
+        section.fail("depth", fmt::format("'depth' in {} whose target is not 3d", section.label()));
+    description.depth = section.integer("depth", 1, Texture::kMaxSize).value_or(1);
+    description.sampler = read_sampler(section, description.target);
+    description.format =
+        section.choice<TexelFormat>("format", kTexelFormats).value_or(TexelFormat::rgba8);
+    const MipmapSource mipmaps = read_mipmaps(section);
+    if (section.has("generator")) return read_generated(section, description, mipmaps, sets);
+    // hilo8 and its signed relative are stored as bytes.
+    const bool words = description.format == TexelFormat::rgba16 ||
+                       description.format == TexelFormat::hilo16 ||
+                       description.format == TexelFormat::signed_hilo16;
+    return words ? read_images<Image16>(section, description, mipmaps, directory)
+                 : read_images<Image8>(section, description, mipmaps, directory);
 }
 
 }  // namespace
@@ -144,10 +313,10 @@ TextureTable read_textures(const Section& root, const std::filesystem::path& dir
     TextureTable textures;
     BrushedSets sets;
     for (const toml::table* table : root.tables("textures")) {
-        const Section section(
-            *table, "[[textures]]",
-            {"name", "file", "width", "height", "texels", "generator", "seed", "map", "format",
-             "target", "filter", "wrap", "mipmaps", "mip_files", "lod_bias"});
+        const Section section(*table, "[[textures]]",
+                              {"name", "file", "width", "height", "texels", "generator", "seed",
+                               "map", "format", "target", "filter", "mag_filter", "wrap", "mipmaps",
+                               "mip_files", "lod_bias", "border_color", "files", "depth"});
         const std::string name = section.required_text("name");
         require_new_name(section, textures, name);
         textures.emplace(name, read_texture(section, directory, sets));

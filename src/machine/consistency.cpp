@@ -4,7 +4,6 @@
 #include <burnish/texture_shader.hpp>
 #include <optional>
 
-#include "machine/texture_class.hpp"
 #include "machine/unit_operations.hpp"
 
 namespace burnish {
@@ -122,8 +121,8 @@ class Checker {
         const Texture* found = texture(i);
         if (found == nullptr)
             return fmt::format("without a texture, expected a {} texture", target_name(*wanted));
-        if (target_of(*found) != *wanted)
-            return fmt::format("with a {} texture, expected {}", target_name(target_of(*found)),
+        if (found->target() != *wanted)
+            return fmt::format("with a {} texture, expected {}", target_name(found->target()),
                                target_name(*wanted));
         return std::nullopt;
     }

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <burnish/texture.hpp>
 #include <burnish/texture_shader.hpp>
 #include <optional>
-
-#include "machine/texture_class.hpp"
 
 /// What the operations of texture units have in common.
 namespace burnish {

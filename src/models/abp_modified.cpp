@@ -206,9 +206,13 @@ TexturePtr DerivedMaps::axis_map(const TexturePtr& normal_map, int axis, float f
             write_axis(frame_axis(n, axis), factor, image.at(x, y));
         }
     }
-    const Sampler sampler = normal_map ? normal_map->sampler() : Sampler{};
-    m_entries.push_back(
-        {normal_map, axis, factor, std::make_shared<Texture>(image, sampler), true});
+    TextureDescription description;
+    if (normal_map) {
+        description.sampler = normal_map->sampler();
+        description.box_mipmaps = normal_map->levels().size() > 1;
+    }
+    m_entries.push_back({normal_map, axis, factor,
+                         std::make_shared<Texture>(std::span(&image, 1), description), true});
     return m_entries.back().map;
 }
 
@@ -230,6 +234,13 @@ ProgramMaterial compile_abp_modified(const Material& material, const Machine& ma
     if (!material.tangent_map != !material.bitangent_map) {
         short_of(material, machine,
                  "a tangent map or a bitangent map alone, expected both or neither");
+    }
+    for (const TexturePtr& map : {material.normal_map, material.tangent_map, material.bitangent_map,
+                                  material.specular_map}) {
+        if (map && (map->target() != TextureTarget::two_d || has_words(map->format()) ||
+                    format_class(map->format()) != TexelClass::unsigned_rgba)) {
+            short_of(material, machine, "a map that is not two-dimensional of unsigned bytes");
+        }
     }
     if (machine.texture_units < 2) short_of(material, machine, "needs 2 texture units");
     if (machine.general_stages < 2) short_of(material, machine, "needs 2 general stages");

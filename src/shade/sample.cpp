@@ -1,44 +1,250 @@
 #include "shade/sample.hpp"
 
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <cmath>
+
 namespace burnish {
 
 namespace {
 
+AddressMode mode_of(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::repeat:
+            return AddressMode::repeat;
+        case Wrap::clamp_to_edge:
+            return AddressMode::clamp_to_edge;
+        case Wrap::clamp_to_border:
+            return AddressMode::clamp_to_border;
+        case Wrap::mirrored_repeat:
+            break;
+    }
+    return AddressMode::mirrored_repeat;
+}
+
+bool blends_levels(const Texture& texture) {
+    const Filter f = texture.sampler().filter;
+    return texture.levels().size() > 1 &&
+           (f == Filter::nearest_mipmap_linear || f == Filter::linear_mipmap_linear);
+}
+
+bool takes_nearest_level(const Texture& texture) {
+    const Filter f = texture.sampler().filter;
+    return texture.levels().size() > 1 &&
+           (f == Filter::nearest_mipmap_nearest || f == Filter::linear_mipmap_nearest);
+}
+
+std::uint8_t signed_channels(const Texture& texture) {
+    unsigned mask = 0;
+    for (int c = 0; c < 4; ++c) mask |= texture.is_signed(c) ? 1U << c : 0U;
+    return static_cast<std::uint8_t>(mask);
+}
+
+/// Whether one address of level 0 and the plain fetch do.
+bool is_plain(const Texture& texture) {
+    const bool flat =
+        texture.target() != TextureTarget::cube && texture.target() != TextureTarget::three_d;
+    return flat && !has_words(texture.format()) && !needs_level_of_detail(texture);
+}
+
 bool same(const AddressCtx& a, const AddressCtx& b) {
     return a.u == b.u && a.v == b.v && a.q == b.q && a.width == b.width && a.height == b.height &&
            a.pitch == b.pitch && a.mode_s == b.mode_s && a.mode_t == b.mode_t &&
-           a.linear == b.linear;
+           a.linear == b.linear && a.rectangle == b.rectangle;
 }
 
-}  // namespace
-
-void plan_sample(const Texture& texture, const SampleCoordinates& at, const SampleTarget& target,
-                 SamplePlan& plan, std::vector<InputOp>& ops) {
-    const auto mode = [](Wrap wrap) {
-        return wrap == Wrap::repeat ? AddressMode::repeat : AddressMode::clamp_to_edge;
-    };
-    AddressCtx address{};
-    address.u = at.s;
-    address.v = at.t;
-    address.q = at.q;
-    address.width = texture.width();
-    address.height = texture.height();
-    address.pitch = texture.pitch();
-    address.mode_s = mode(texture.sampler().wrap_s);
-    address.mode_t = mode(texture.sampler().wrap_t);
-    address.linear = texture.sampler().filter == Filter::linear ? 1 : 0;
-    const bool shares = plan.has_last && same(plan.last, address) && !ops.empty();
+void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, SamplePlan& plan,
+                std::vector<InputOp>& ops) {
+    const Sampler& sampler = texture.sampler();
+    const AddressCtx address{
+        at.s,
+        texture.target() == TextureTarget::one_d ? at.s : at.t,
+        at.q,
+        texture.width(),
+        texture.height(),
+        texture.pitch(),
+        mode_of(sampler.wrap_s),
+        mode_of(sampler.wrap_t),
+        static_cast<std::uint8_t>(is_linear_within(sampler.filter) ? 1 : 0),
+        static_cast<std::uint8_t>(texture.target() == TextureTarget::rectangle ? 1 : 0)};
+    const bool shares = plan.last && same(*plan.last, address);
     if (!shares) ops.emplace_back(address);
+    plan.last = address;
     auto* fetch = shares ? std::get_if<FetchCtx>(&ops.back()) : nullptr;
     if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
         ops.emplace_back(FetchCtx{{}, {}, {}, 0, texture.pitch()});
         fetch = &std::get<FetchCtx>(ops.back());
     }
     fetch->texels[fetch->count] = texture.texels();
-    fetch->is_signed[fetch->count] = texture.format() == TexelFormat::signed_rgba8 ? 1 : 0;
-    fetch->plane[fetch->count++] = target.registers;
-    plan.last = address;
-    plan.has_last = true;
+    fetch->is_signed[fetch->count] = signed_channels(texture);
+    fetch->plane[fetch->count++] = plane;
+}
+
+/// A sample with levels, faces, slices or words, step by step.
+class LevelPlanner {
+  public:
+    LevelPlanner(const Texture& texture, const SampleCoordinates& at, SamplePlan& plan,
+                 std::vector<InputOp>& ops)
+        : m_texture(texture), m_at(at), m_plan(plan), m_ops(ops) {
+        m_address.u = at.s;
+        m_address.v = texture.target() == TextureTarget::one_d ? at.s : at.t;
+        m_address.q = at.q;
+        m_address.r = texture.target() == TextureTarget::three_d ? at.r : -1;
+        m_address.face = m_address.lambda = m_address.slice_weight = -1;
+        const Sampler& sampler = texture.sampler();
+        m_address.mode_s = mode_of(sampler.wrap_s);
+        m_address.mode_t = mode_of(sampler.wrap_t);
+        m_address.mode_r = mode_of(sampler.wrap_r);
+        m_address.mag_linear = sampler.mag_is_linear() ? 1 : 0;
+        m_address.min_linear = is_linear_within(sampler.filter) ? 1 : 0;
+        m_address.rectangle = texture.target() == TextureTarget::rectangle ? 1 : 0;
+        m_address.pitch = texture.pitch();
+        m_address.layer_bytes = texture.layer_bytes();
+        m_address.texel_bytes = texture.texel_bytes();
+        m_address.level_count = static_cast<std::int32_t>(texture.levels().size());
+        std::transform(texture.levels().begin(), texture.levels().end(), m_address.levels,
+                       [](const TextureLevel& l) {
+                           return LevelAddressCtx::Level{l.width, l.height, l.depth, l.offset};
+                       });
+    }
+
+    void plan(const SampleTarget& target) {
+        m_plan.last.reset();
+        m_plan.uses_planes = true;
+        if (needs_level_of_detail(m_texture)) plan_level_of_detail();
+        if (m_texture.target() == TextureTarget::cube) plan_face();
+        const bool hilo = is_hilo(m_texture.format());
+        const int out = hilo ? scratch(kFirst) : target.registers;
+        if (takes_nearest_level(m_texture)) {
+            plan_level(LevelChoice::nearest, out);
+        } else if (blends_levels(m_texture)) {
+            plan_level(LevelChoice::floor, out);
+            plan_level(LevelChoice::ceiling, scratch(kSecond));
+            plan_blend(out, scratch(kSecond), m_address.lambda);
+        } else {
+            plan_level(LevelChoice::base, out);
+        }
+        if (hilo) {
+            m_ops.emplace_back(HiloCtx{out, target.values,
+                                       static_cast<std::uint8_t>(m_texture.is_signed(0) ? 1 : 0)});
+        }
+    }
+
+  private:
+    // Scratch register planes.
+    static constexpr int kFace = 0, kLambda = 1, kSliceWeight = 2, kFirst = 3, kSecond = 7,
+                         kBehind = 11;
+    // Scratch attribute planes.
+    static constexpr int kU = 0, kV = 1, kFootprint = 2;
+
+    [[nodiscard]] int scratch(int plane) const { return m_plan.planes + plane; }
+    [[nodiscard]] int scratch_attribute(int plane) const { return m_plan.attributes + plane; }
+
+    void plan_face() {
+        m_address.u = scratch_attribute(kU);
+        m_address.v = scratch_attribute(kV);
+        m_address.q = -1;
+        m_address.face = scratch(kFace);
+        m_ops.emplace_back(
+            CubeFaceCtx{m_at.s, m_at.t, m_at.r, m_address.u, m_address.v, m_address.face});
+    }
+
+    void plan_level_of_detail() {
+        const TextureLevel& base = m_texture.levels().front();
+        const TextureTarget target = m_texture.target();
+        const bool cube = target == TextureTarget::cube;
+        FootprintCtx footprint{m_at.s,
+                               m_address.v,
+                               cube ? m_at.r : m_address.r,
+                               cube ? -1 : m_at.q,
+                               static_cast<std::uint8_t>(cube ? 1 : 0),
+                               {static_cast<float>(base.width), static_cast<float>(base.height),
+                                static_cast<float>(base.depth)},
+                               scratch_attribute(kFootprint)};
+        if (target == TextureTarget::one_d) footprint.scale[1] = 0.0F;
+        if (target == TextureTarget::rectangle) footprint.scale[0] = footprint.scale[1] = 1.0F;
+        if (cube) footprint.scale[0] = footprint.scale[1] = 0.5F * static_cast<float>(base.width);
+        if (m_at.interpolated) {
+            m_ops.emplace_back(PlaneFootprintCtx{footprint, {}});
+        } else {
+            m_ops.emplace_back(QuadFootprintCtx{footprint});
+        }
+        m_address.lambda = scratch(kLambda);
+        const bool levels = blends_levels(m_texture) || takes_nearest_level(m_texture);
+        // With one level only, lambda says whether texels are smaller than pixels.
+        m_ops.emplace_back(LevelOfDetailCtx{
+            footprint.out, m_address.lambda,
+            static_cast<std::int32_t>(std::floor(256.0F * m_texture.sampler().lod_bias + 0.5F)),
+            levels ? 256 * (m_address.level_count - 1) : 1});
+    }
+
+    /// Four or two planes from `out` on, from one level.
+    void plan_level(LevelChoice choice, int out) {
+        const bool linear = m_address.mag_linear != 0 || m_address.min_linear != 0;
+        m_address.choice = choice;
+        m_address.behind = 0;
+        m_address.slice_weight = m_address.r >= 0 && linear ? scratch(kSliceWeight) : -1;
+        m_ops.emplace_back(m_address);
+        plan_fetch(out);
+        if (m_address.slice_weight < 0) return;
+        m_address.behind = 1;
+        m_ops.emplace_back(m_address);
+        plan_fetch(scratch(kBehind));
+        plan_blend(out, scratch(kBehind), m_address.slice_weight);
+    }
+
+    void plan_fetch(int out) {
+        if (is_hilo(m_texture.format())) {
+            m_ops.emplace_back(FetchHiloCtx{m_texture.texels(), out, m_texture.pitch()});
+        } else if (has_words(m_texture.format())) {
+            m_ops.emplace_back(FetchWordsCtx{m_texture.texels(), out, m_texture.pitch()});
+        } else {
+            m_ops.emplace_back(FetchCtx{
+                {m_texture.texels()}, {out}, {signed_channels(m_texture)}, 1, m_texture.pitch()});
+        }
+    }
+
+    void plan_blend(int out, int other, int weight) {
+        const bool hilo = is_hilo(m_texture.format());
+        const bool doubled = !hilo && m_plan.numbers == NumberModel::nine_bit;
+        m_ops.emplace_back(BlendLevelsCtx{out, other, out, hilo ? 2 : 4, weight,
+                                          doubled ? signed_channels(m_texture) : std::uint8_t{0}});
+    }
+
+    const Texture& m_texture;
+    const SampleCoordinates& m_at;
+    SamplePlan& m_plan;
+    std::vector<InputOp>& m_ops;
+    LevelAddressCtx m_address{};
+};
+
+}  // namespace
+
+bool needs_level_of_detail(const Texture& texture) {
+    const Sampler& sampler = texture.sampler();
+    return blends_levels(texture) || takes_nearest_level(texture) ||
+           is_linear_within(sampler.filter) != sampler.mag_is_linear();
+}
+
+void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
+                 const SampleTarget& target, SamplePlan& plan, std::vector<InputOp>& ops) {
+    if (texture.format() == TexelFormat::rgba16 && plan.numbers == NumberModel::nine_bit) {
+        throw Error(ErrorCode::bad_program,
+                    "a texture of format rgba16 on a machine of nine bits, expected one of 8 bits "
+                    "or a wide machine");
+    }
+    const bool flat =
+        texture.target() != TextureTarget::cube && texture.target() != TextureTarget::three_d;
+    if (!flat && coordinates.r < 0) {
+        throw Error(ErrorCode::bad_program,
+                    "a cube map or 3D texture where coordinates have no r, expected three "
+                    "coordinates or a flat texture");
+    }
+    if (is_plain(texture)) {
+        plan_plain(texture, coordinates, target.registers, plan, ops);
+    } else {
+        LevelPlanner(texture, coordinates, plan, ops).plan(target);
+    }
 }
 
 }  // namespace burnish

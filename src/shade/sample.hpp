@@ -1,6 +1,8 @@
 #pragma once
 
+#include <burnish/machine.hpp>
 #include <burnish/texture.hpp>
+#include <optional>
 #include <vector>
 
 #include "shade/input_op.hpp"
@@ -9,25 +11,42 @@ namespace burnish {
 
 /// Coordinates as attribute planes, -1 where there is none; q divides s, t (and r of 3D) first.
 struct SampleCoordinates {
-    int s = -1, t = -1, r = -1, q = -1;
-    bool interpolated = false;  ///< planes of the interpolator
+    int s, t, r, q;
+    /// Planes of the interpolators, whose level of detail follows from the triangle; others need
+    /// whole 2x2 quads in a packet.
+    bool interpolated;
 };
 
-/// Where texels go.
+/// Where texels go, as they are: DSDT texels, too. Four register planes from `registers` on get the
+/// codes of r, g, b, a, of DSDT ds, dt, mag, intensity; for hilo formats two attribute planes from
+/// `values` on get n / 65535 or n / 32768. The other one is not looked at.
 struct SampleTarget {
-    int registers = -1;  ///< first of four register planes
-    int values = -1;     ///< first of two attribute planes
+    int registers, values;
 };
 
-/// What sampling takes for itself.
+/// Scratch planes of any one sample.
+inline constexpr int kSampleAttributes = 3;
+inline constexpr int kSamplePlanes = 15;
+
+/// What samples of one shading share.
 struct SamplePlan {
-    int next_attribute = 0;
-    int next_register = 0;
-    bool has_last = false;
-    AddressCtx last{};
+    NumberModel numbers;
+    int attributes;            ///< the first of kSampleAttributes attribute planes
+    int planes;                ///< the first of kSamplePlanes register planes
+    bool uses_planes = false;  ///< set when one was needed
+    /// What the packet's texel addresses are for, so that samples in a row may share them.
+    std::optional<AddressCtx> last{};
 };
 
-void plan_sample(const Texture& texture, const SampleCoordinates& at, const SampleTarget& target,
-                 SamplePlan& plan, std::vector<InputOp>& ops);
+/// Whether the texture's filter looks at the level of detail.
+[[nodiscard]] bool needs_level_of_detail(const Texture& texture);
+
+/// Operations that sample a texture, added to `ops`. Samples in a row with the same coordinates,
+/// size and sampler share one address and up to four textures a fetch, if nothing but mip levels,
+/// faces, slices and words comes between.
+/// Throws Error{bad_program} for a texture of more coordinates than there are and for rgba16 in
+/// nine bits.
+void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
+                 const SampleTarget& target, SamplePlan& plan, std::vector<InputOp>& ops);
 
 }  // namespace burnish

@@ -62,13 +62,13 @@ class Planner {
           m_material(material),
           m_machine(machine),
           m_is_mesh(is_mesh),
-          m_per_pixel(machine.half_vector == HalfVector::pixel) {
+          m_per_pixel(machine.half_vector == HalfVector::pixel),
+          m_sampling{shading.program.numbers, kSampleScratch, shading.program.plane_count},
+          m_free{kUnitAttributes, shading.program.plane_count + kSamplePlanes} {
         shading.varying_list.clear();
         shading.inputs.clear();
         shading.frame_attributes =
             is_mesh ? kUvAttributes + (m_per_pixel ? kFrameAttributes : 0) : 0;
-        m_sampling.next_attribute = kUnitAttributes;
-        m_sampling.next_register = shading.program.plane_count;
         m_lighting.half_vector = m_lighting.light_vector = m_lighting.view_vector = -1;
         m_lighting.n_dot_l = -1;
         m_slots = color_slots(material, shading.program);
@@ -184,7 +184,7 @@ class Planner {
         const ColorSlot slot{Register::col0, component, color_input(input), -1};
         const int from = m_per_pixel ? lighting_plane(slot.input) + component
                                      : varying({source_of(slot), component});
-        const int to = m_sampling.next_attribute++;
+        const int to = m_free.attribute++;
         m_vector_ops.emplace_back(AffineCtx{from, to, 2.0F, -1.0F, 1.0F});
         m_vectors.push_back({input, component, to});
         return to;
@@ -203,7 +203,8 @@ class Planner {
     void plan_textures() {
         UnitPlan units = plan_texture_units(
             m_material, m_machine, m_shading.program,
-            [this](int unit, int component) { return coordinate(unit, component); }, m_sampling);
+            [this](int unit, int component) { return coordinate(unit, component); }, m_sampling,
+            m_free);
         m_texture_ops = std::move(units.ops);
         m_shading.units = std::move(units.units);
         m_shading.keep_attribute = units.keep_attribute;
@@ -215,18 +216,22 @@ class Planner {
     /// What they take for themselves is free again after each of them.
     void plan_stage_fetches() {
         BoundProgram& program = m_shading.program;
-        int planes = m_sampling.next_register;
+        int planes = m_free.reg;
         m_shading.stage_fetches.clear();
         for (const BoundFetch& fetch : program.fetches) {
-            SamplePlan plan;
-            plan.next_attribute = m_sampling.next_attribute;
-            plan.next_register = program.plane_count;
+            SamplePlan sampling = m_sampling;
+            sampling.last.reset();
+            FreePlanes free = m_free;
             const Texture& texture = *m_material.units[static_cast<std::size_t>(fetch.unit)];
             m_shading.stage_fetches.push_back(
-                {fetch.before, plan_stage_fetch(fetch, texture, plan)});
-            planes = std::max(planes, plan.next_register);
+                {fetch.before, plan_stage_fetch(fetch, texture, sampling, free)});
+            m_shading.quads |= needs_level_of_detail(texture);
+            planes = std::max(planes, free.reg);
+            m_sampling.uses_planes |= sampling.uses_planes;
         }
-        program.plane_count = std::max(program.plane_count, planes);
+        const bool unused =
+            !m_sampling.uses_planes && planes == program.plane_count + kSamplePlanes;
+        if (!unused) program.plane_count = planes;
     }
 
     struct VectorComponent {
@@ -240,6 +245,7 @@ class Planner {
     const Machine& m_machine;
     bool m_is_mesh, m_per_pixel;
     SamplePlan m_sampling;
+    FreePlanes m_free;
     std::vector<ColorSlot> m_slots;
     std::vector<VectorComponent> m_vectors;
     std::vector<InputOp> m_vector_ops, m_texture_ops;
@@ -252,6 +258,9 @@ void require_supported(const Shading& shading) {
         throw Error(ErrorCode::bad_program, "cull_fragment is not supported yet");
     if (shading.depth_attribute >= 0)
         throw Error(ErrorCode::bad_program, "replacing the depth is not supported yet");
+    if (shading.quads)
+        throw Error(ErrorCode::bad_program,
+                    "a level of detail at computed coordinates is not supported yet");
 }
 
 }  // namespace
@@ -290,9 +299,10 @@ void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out)
 }
 
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
-                Packet& packet) {
+                const AttributesCtx& runs, Packet& packet) {
     struct FeedInput {
         const KernelTable& k;
+        const AttributesCtx& runs;
         Packet& p;
         bool nine_bit;
         void operator()(const ClearCtx& c) const {
@@ -327,17 +337,29 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const MagnitudeCtx& c) const {
             (nine_bit ? k.dim_nine_bit : k.dim_wide)(p, c);
         }
+        void operator()(const CubeFaceCtx& c) const { k.cube_face(p, c); }
+        void operator()(const PlaneFootprintCtx& c) const {
+            k.plane_footprint(p, {c.footprint, runs});
+        }
+        void operator()(const QuadFootprintCtx& c) const { k.quad_footprint(p, c); }
+        void operator()(const LevelOfDetailCtx& c) const { k.level_of_detail(p, c); }
+        void operator()(const LevelAddressCtx& c) const { k.level_address(p, c); }
+        void operator()(const FetchHiloCtx& c) const { k.fetch_hilo(p, c); }
+        void operator()(const FetchWordsCtx& c) const { k.fetch_words(p, c); }
+        void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
+        void operator()(const HiloCtx& c) const { k.hilo(p, c); }
     };
-    std::visit(FeedInput{kernels, packet, numbers == NumberModel::nine_bit}, op);
+    std::visit(FeedInput{kernels, runs, packet, numbers == NumberModel::nine_bit}, op);
 }
 
-void run_program(const Shading& shading, const KernelTable& kernels, Packet& packet) {
+void run_program(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
+                 Packet& packet) {
     const BoundProgram& program = shading.program;
     std::size_t done = 0;
     for (const StageSampling& fetch : shading.stage_fetches) {
         run_portions(program, kernels, packet, done, fetch.before);
         done = fetch.before;
-        for (const InputOp& op : fetch.ops) feed_input(op, program.numbers, kernels, packet);
+        for (const InputOp& op : fetch.ops) feed_input(op, program.numbers, kernels, runs, packet);
     }
     run_portions(program, kernels, packet, done, program.portions.size());
     run_final(program, kernels, packet);
@@ -348,9 +370,9 @@ void shade_packet(const Shading& shading, const KernelTable& kernels, const Attr
     const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
     kernels.attributes(packet, runs);
     for (const InputOp& op : shading.inputs) {
-        feed_input(op, shading.program.numbers, kernels, packet);
+        feed_input(op, shading.program.numbers, kernels, runs, packet);
     }
-    run_program(shading, kernels, packet);
+    run_program(shading, kernels, runs, packet);
     StoreCtx store{};
     std::copy_n(shading.program.result.begin(), 4, store.plane);
     store.format = format;

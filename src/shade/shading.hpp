@@ -20,9 +20,11 @@ inline constexpr int kFrameAttributes = 12;
 inline constexpr int kMaxInterpolated = 32;
 /// The three vectors and n.l that the lighting stage adds behind them.
 inline constexpr int kLightingAttributes = kMaxInterpolated;
+/// Scratch planes of samples.
+inline constexpr int kSampleScratch = kLightingAttributes + 10;
 /// What texture units compute on the way to their coordinates lies behind these.
-inline constexpr int kUnitAttributes = kLightingAttributes + 10;
-inline constexpr int kMaxAttributes = kUnitAttributes + 118;
+inline constexpr int kUnitAttributes = kSampleScratch + kSampleAttributes;
+inline constexpr int kMaxAttributes = kUnitAttributes + 115;
 
 /// The input operations of a fetch between portions.
 struct StageSampling {
@@ -62,11 +64,13 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
 /// Writes the shading.interpolated() attributes of one vertex.
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out);
 
-/// One input operation on a packet.
-void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels, Packet& packet);
+/// One input operation on a packet; `runs` are those of its fragments.
+void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
+                const AttributesCtx& runs, Packet& packet);
 
 /// General stages with the fetches between them, and the final combiner.
-void run_program(const Shading& shading, const KernelTable& kernels, Packet& packet);
+void run_program(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
+                 Packet& packet);
 
 /// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
 /// constant planes are in place.

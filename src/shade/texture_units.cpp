@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "machine/unit_operations.hpp"
+#include "shade/shading.hpp"
 
 namespace burnish {
 
@@ -34,14 +35,14 @@ std::array<TextureUnit, kMostUnits> active_units(const ProgramMaterial& material
     }
     for (std::size_t i = first_plain; i < material.units.size(); ++i) {
         if (material.units[i]) {
-            units.at(i).operation = plain_operation(target_of(*material.units[i]));
+            units.at(i).operation = plain_operation(material.units[i]->target());
         }
     }
     return units;
 }
 
-bool is_hilo(TexelClass format) {
-    return format == TexelClass::hilo || format == TexelClass::signed_hilo;
+bool is_hilo(TexelClass kind) {
+    return kind == TexelClass::hilo || kind == TexelClass::signed_hilo;
 }
 
 /// Whether a texel of the format is a colour for the combiners; others read (0, 0, 0, 0).
@@ -69,12 +70,14 @@ TextureOperation operation_of(FetchTarget target) {
 class UnitPlanner {
   public:
     UnitPlanner(const ProgramMaterial& material, const Machine& machine,
-                const BoundProgram& program, const CoordinatePlane& coordinates, SamplePlan& plan)
+                const BoundProgram& program, const CoordinatePlane& coordinates,
+                SamplePlan& sampling, FreePlanes& free)
         : m_material(material),
           m_machine(machine),
           m_program(program),
           m_coordinates(coordinates),
-          m_sampling(plan),
+          m_sampling(sampling),
+          m_free(free),
           m_units(active_units(material, machine)) {
         m_dots.fill(-1);
         if (material.texture_shader) m_bump_source = material.texture_shader->bump_source;
@@ -144,11 +147,9 @@ class UnitPlanner {
         m_plan.ops.emplace_back(ctx);
     }
     int take_attributes(int count) {
-        return std::exchange(m_sampling.next_attribute, m_sampling.next_attribute + count);
+        return std::exchange(m_free.attribute, m_free.attribute + count);
     }
-    int take_registers() {
-        return std::exchange(m_sampling.next_register, m_sampling.next_register + 4);
-    }
+    int take_registers() { return std::exchange(m_free.reg, m_free.reg + 4); }
 
     int constant(float value) {
         const auto at = std::find_if(m_constants.begin(), m_constants.end(),
@@ -193,7 +194,11 @@ class UnitPlanner {
         return texel;
     }
 
-    void sample(int i, const SampleCoordinates& at) {
+    void sample(int i, SampleCoordinates at) {
+        // Constant coordinates and those of light are made by operations, too.
+        at.interpolated = at.interpolated && interpolated(at.s) && interpolated(at.t) &&
+                          interpolated(at.r) && interpolated(at.q);
+        m_plan.quads |= !at.interpolated && needs_level_of_detail(texture(i));
         const Texel texel = place_texel(i, format_class(texture(i).format()));
         plan_sample(texture(i), at, {texel.registers, texel.values}, m_sampling, m_plan.ops);
         m_texels.at(index(i)) = texel;
@@ -207,6 +212,8 @@ class UnitPlanner {
         }
         if (is_dimmed(operation(i))) dim(i, color, out);
     }
+
+    [[nodiscard]] static bool interpolated(int attribute) { return attribute < kMaxInterpolated; }
 
     void dim(int i, int from, int to) {
         const bool bytes = m_bump_source == BumpSource::rgba8;
@@ -448,6 +455,7 @@ class UnitPlanner {
     const BoundProgram& m_program;
     const CoordinatePlane& m_coordinates;
     SamplePlan& m_sampling;
+    FreePlanes& m_free;
     std::array<TextureUnit, kMostUnits> m_units;
     BumpSource m_bump_source = BumpSource::dsdt;
     std::array<bool, kMostUnits> m_needed{}, m_read_later{};
@@ -483,8 +491,8 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
 }
 
 std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& texture,
-                                      SamplePlan& plan) {
-    const Op equivalent = plain_operation(target_of(texture));
+                                      SamplePlan& sampling, FreePlanes& free) {
+    const Op equivalent = plain_operation(texture.target());
     if (operation_of(fetch.target) != equivalent)
         throw Error(ErrorCode::bad_program,
                     fmt::format("a fetch to tex{} does {}, its texture is for {}", fetch.unit,
@@ -499,14 +507,13 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
     std::array<int, 3> at{-1, -1, -1};
     for (int i = 0; i < coordinate_count(fetch.target); ++i) {
         const auto k = static_cast<std::size_t>(i);
-        at[k] = plan.next_attribute++;
+        at[k] = free.attribute++;
         ops.emplace_back(DecodeCtx{fetch.plane[k], at[k],
                                    fetch.expand[k] ? Reading::expanded : Reading::unsigned_texel});
     }
     const bool intensity = format == TexelClass::dsdt_mag_intensity;
-    const int out =
-        intensity ? std::exchange(plan.next_register, plan.next_register + 4) : fetch.out;
-    plan_sample(texture, {at[0], at[1], at[2], -1, false}, {out, -1}, plan, ops);
+    const int out = intensity ? std::exchange(free.reg, free.reg + 4) : fetch.out;
+    plan_sample(texture, {at[0], at[1], at[2], -1, false}, {out, -1}, sampling, ops);
     if (intensity) {
         for (int c = 0; c < 3; ++c) ops.emplace_back(ClearCtx{fetch.out + c});
         ops.emplace_back(CopyCtx{out + 3, fetch.out + 3});
@@ -516,8 +523,8 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
 
 UnitPlan plan_texture_units(const ProgramMaterial& material, const Machine& machine,
                             const BoundProgram& program, const CoordinatePlane& coordinates,
-                            SamplePlan& plan) {
-    return UnitPlanner(material, machine, program, coordinates, plan).plan();
+                            SamplePlan& sampling, FreePlanes& free) {
+    return UnitPlanner(material, machine, program, coordinates, sampling, free).plan();
 }
 
 }  // namespace burnish

@@ -26,6 +26,12 @@ struct PlannedUnit {
     int values = -1;       ///< first of two attribute planes of a HILO texel, or -1
 };
 
+/// Planes that nobody has taken yet.
+struct FreePlanes {
+    int attribute;  ///< the first free attribute plane
+    int reg;        ///< the first free register plane
+};
+
 /// How the units get their results.
 struct UnitPlan {
     std::vector<InputOp> ops;
@@ -38,11 +44,11 @@ struct UnitPlan {
 /// Operations for every unit that `program` or a later unit reads.
 UnitPlan plan_texture_units(const ProgramMaterial& material, const Machine& machine,
                             const BoundProgram& program, const CoordinatePlane& coordinates,
-                            SamplePlan& plan);
+                            SamplePlan& sampling, FreePlanes& free);
 
 /// Operations that bring what `fetch` asks for. Throws Error{bad_program} where the texture has
 /// another target.
 std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& texture,
-                                      SamplePlan& plan);
+                                      SamplePlan& sampling, FreePlanes& free);
 
 }  // namespace burnish

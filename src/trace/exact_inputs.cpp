@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "core/dmath.hpp"
 #include "trace/texel_bytes.hpp"
 
 namespace burnish {
@@ -16,31 +17,14 @@ double clamp_to_one(double x) {
     return x > 0.0 ? std::min(x, 1.0) : 0.0;
 }
 
-struct TexelPosition {
-    int texel;      ///< upper or left
-    double weight;  ///< of its neighbour
-};
-
-/// The address stage with all bits of the weight.
-TexelPosition texel_position(double u, int size, AddressMode mode, bool linear) {
-    const bool repeat = mode == AddressMode::repeat;
-    const double x = clamp_to_one(repeat ? u - std::floor(u) : u) * size - (linear ? 0.5 : 0.0);
-    const double left = std::floor(x);
-    const int texel = static_cast<int>(left);
-    const double weight = linear ? x - left : 0.0;
-    if (texel < 0) return repeat ? TexelPosition{size - 1, weight} : TexelPosition{0, 0.0};
-    if (texel >= size) return {repeat ? 0 : size - 1, weight};
-    return {texel, weight};
-}
-
 double mix(double a, double b, double weight) {
     return a + (b - a) * weight;
 }
 
 }  // namespace
 
-ExactInputs::ExactInputs(const Shading& shading, const SetupTriangle& triangle,
-                         const Barycentrics& place)
+ExactInputs::ExactInputs(const Shading& shading, const ScreenMesh& mesh,
+                         const SetupTriangle& triangle, std::int32_t x, std::int32_t y)
     : m_shading(shading),
       m_attributes(kMaxAttributes),
       m_planes(static_cast<std::size_t>(shading.program.plane_count)) {
@@ -48,9 +32,19 @@ ExactInputs::ExactInputs(const Shading& shading, const SetupTriangle& triangle,
     for (std::size_t i = 0; i < 3; ++i) {
         vertex_attributes(shading, triangle.vertex[i], corner[i].data());
     }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(shading.interpolated()); ++k) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            m_attributes[k] += place.weight[i] * static_cast<double>(corner[i][k]);
+    const auto count = static_cast<std::size_t>(shading.interpolated());
+    const std::array<Barycentrics, 3> places{barycentrics(mesh, triangle, x, y),
+                                             barycentrics(mesh, triangle, x + 1, y),
+                                             barycentrics(mesh, triangle, x, y + 1)};
+    for (std::size_t p = 0; p < 3; ++p) {
+        m_over_w[p] = {places[p].one_over_w};
+        for (std::size_t k = 0; k < count; ++k) {
+            double value = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                value += places[p].weight[i] * static_cast<double>(corner[i][k]);
+            }
+            if (p == 0) m_attributes[k] = value;
+            m_over_w[p].push_back(value * places[p].one_over_w);
         }
     }
 }
@@ -65,7 +59,37 @@ void ExactInputs::feed(const InputOp& op) {
             plane(c.plane) = clamp_to_one(attribute(c.attribute));
         }
         void operator()(const AddressCtx& c) const { to.locate(c); }
-        void operator()(const FetchCtx& c) const { to.fetch(c); }
+        void operator()(const FetchCtx& c) const {
+            for (int k = 0; k < c.count; ++k) {
+                to.fetch(texture_at(to.m_shading, c.texels[k]), c.plane[k], 4);
+            }
+        }
+        void operator()(const CubeFaceCtx& c) const { to.find_face(c); }
+        void operator()(const PlaneFootprintCtx& c) const { to.measure(c.footprint); }
+        void operator()(const QuadFootprintCtx& c) const { to.measure(c.footprint); }
+        void operator()(const LevelOfDetailCtx& c) const {
+            const double squared = std::clamp(to.attribute(c.footprint), 0x1p-64, 0x1p64);
+            const double lod = 0.5 * dmath::log2(squared) + c.bias / 256.0;
+            plane(c.plane) = std::clamp(lod, 0.0, c.max / 256.0);
+        }
+        void operator()(const LevelAddressCtx& c) const { to.locate(c); }
+        void operator()(const FetchHiloCtx& c) const {
+            to.fetch(texture_at(to.m_shading, c.texels), c.plane, 2);
+        }
+        void operator()(const FetchWordsCtx& c) const {
+            to.fetch(texture_at(to.m_shading, c.texels), c.plane, 4);
+        }
+        void operator()(const BlendLevelsCtx& c) const {
+            const double weight = plane(c.weight) - std::floor(plane(c.weight));
+            for (int k = 0; k < c.channels; ++k) {
+                plane(c.out + k) = mix(plane(c.a + k), plane(c.b + k), weight);
+            }
+        }
+        void operator()(const HiloCtx& c) const {
+            for (int k = 0; k < 2; ++k) {
+                to.m_attributes[static_cast<std::size_t>(c.out + k)] = plane(c.plane + k);
+            }
+        }
         void operator()(const CopyCtx& c) const { plane(c.to) = plane(c.from); }
         void operator()(const FillCtx& c) const {
             attribute(c.attribute) = static_cast<double>(c.value);
@@ -174,34 +198,165 @@ double ExactInputs::number(double color, Reading reading) {
     return color;
 }
 
-void ExactInputs::locate(const AddressCtx& ctx) {
-    const double q = ctx.q < 0 ? 1.0 : attribute(ctx.q);
-    m_address = ctx;
-    m_u = attribute(ctx.u) / q;
-    m_v = attribute(ctx.v) / q;
+ExactInputs::Position ExactInputs::position(double u, int size, AddressMode mode, bool linear,
+                                            bool rectangle) {
+    const double whole = rectangle ? size : 1.0;
+    double f = u;
+    if (mode == AddressMode::repeat) f = u - std::floor(u);
+    if (mode == AddressMode::mirrored_repeat) {
+        f = u - 2.0 * std::floor(u * 0.5);
+        if (f > 1.0) f = 2.0 - f;
+    }
+    const bool border = mode == AddressMode::clamp_to_border;
+    const double low = border ? -1.0 : 0.0, high = border ? whole + 1.0 : whole;
+    f = f > low ? std::min(f, high) : low;  // NaN gives `low`
+    const double x = f * (rectangle ? 1.0 : size) - (linear ? 0.5 : 0.0);
+    const double left = std::floor(x);
+    const int texel = static_cast<int>(left);
+    const double weight = linear ? x - left : 0.0;
+    switch (mode) {
+        case AddressMode::repeat:
+            return {texel < 0 ? size - 1 : texel >= size ? 0 : texel, weight};
+        case AddressMode::clamp_to_border:
+            if (texel < -1) return {-1, 0.0};
+            if (texel >= size) return {size, 0.0};
+            return {texel, weight};
+        case AddressMode::clamp_to_edge:
+        case AddressMode::mirrored_repeat:
+            break;
+    }
+    if (texel < 0) return {0, 0.0};
+    return {std::min(texel, size - 1), weight};
 }
 
-void ExactInputs::fetch(const FetchCtx& ctx) {
-    const bool linear = m_address.linear != 0;
-    const TexelPosition s = texel_position(m_u, m_address.width, m_address.mode_s, linear);
-    const TexelPosition t = texel_position(m_v, m_address.height, m_address.mode_t, linear);
-    for (int k = 0; k < ctx.count; ++k) {
-        const Texture& texture = *m_shading.textures[unit_of_plane(m_shading, ctx.plane[k])];
-        for (int c = 0; c < 4; ++c) {
-            const auto texel = [&](int right, int down) {
-                return texel_value(texture, s.texel + right, t.texel + down, c);
-            };
-            m_planes[static_cast<std::size_t>(ctx.plane[k] + c)] =
-                mix(mix(texel(0, 0), texel(1, 0), s.weight),
-                    mix(texel(0, 1), texel(1, 1), s.weight), t.weight);
-        }
+void ExactInputs::locate(const AddressCtx& ctx) {
+    const double q = ctx.q < 0 ? 1.0 : attribute(ctx.q);
+    m_u = attribute(ctx.u) / q;
+    m_v = attribute(ctx.v) / q;
+    m_level = m_layer = 0;
+    const bool linear = ctx.linear != 0, rectangle = ctx.rectangle != 0;
+    m_column = position(m_u, ctx.width, ctx.mode_s, linear, rectangle);
+    m_row = position(m_v, ctx.height, ctx.mode_t, linear, rectangle);
+}
+
+void ExactInputs::locate(const LevelAddressCtx& ctx) {
+    const double q = ctx.q < 0 ? 1.0 : attribute(ctx.q);
+    m_u = attribute(ctx.u) / q;
+    m_v = attribute(ctx.v) / q;
+    m_r = ctx.r < 0 ? 0.0 : attribute(ctx.r) / q;
+    const double lod = ctx.lambda < 0 ? 0.0 : plane(ctx.lambda);
+    const bool linear = (lod > 0.0 ? ctx.min_linear : ctx.mag_linear) != 0;
+    const bool nearest = ctx.choice == LevelChoice::nearest;
+    m_level = chosen_level(
+        ctx, static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
+    const LevelAddressCtx::Level& level = ctx.levels[m_level];
+    const bool rectangle = ctx.rectangle != 0;
+    m_column = position(m_u, level.width, ctx.mode_s, linear, rectangle);
+    m_row = position(m_v, level.height, ctx.mode_t, linear, rectangle);
+    m_layer = ctx.face < 0 ? 0 : static_cast<int>(plane(ctx.face));
+    if (ctx.r < 0) return;
+    const Position slice = position(m_r, level.depth, ctx.mode_r, linear, false);
+    m_layer = ctx.behind != 0 ? slice_behind(slice.texel, level.depth, ctx.mode_r) : slice.texel;
+    if (ctx.slice_weight >= 0) {
+        m_planes[static_cast<std::size_t>(ctx.slice_weight)] = slice.weight;
     }
 }
 
-std::size_t unit_of_plane(const Shading& shading, int plane) {
-    const auto at = std::find_if(shading.units.begin(), shading.units.end(),
-                                 [&](const PlannedUnit& u) { return u.registers == plane; });
-    return static_cast<std::size_t>(at->unit);
+namespace {
+
+/// A number here, and its derivatives.
+struct Changing {
+    double value, dx, dy;
+    Changing operator-() const { return {-value, -dx, -dy}; }
+};
+
+struct FacePoint {
+    int face;
+    Changing a, b, m;
+};
+
+FacePoint face_point(const Changing& s, const Changing& t, const Changing& r) {
+    const double x = std::abs(s.value), y = std::abs(t.value), z = std::abs(r.value);
+    if (x >= y && x >= z) {
+        return s.value < 0.0 ? FacePoint{1, r, -t, -s} : FacePoint{0, -r, -t, s};
+    }
+    if (y >= z) return t.value < 0.0 ? FacePoint{3, s, -r, -t} : FacePoint{2, s, r, t};
+    return r.value < 0.0 ? FacePoint{5, -s, -t, -r} : FacePoint{4, s, -t, r};
+}
+
+}  // namespace
+
+void ExactInputs::find_face(const CubeFaceCtx& ctx) {
+    const auto direction = [&](int k) { return Changing{attribute(k), 0.0, 0.0}; };
+    const FacePoint at = face_point(direction(ctx.s), direction(ctx.t), direction(ctx.r));
+    m_attributes[static_cast<std::size_t>(ctx.u)] = at.a.value / at.m.value * 0.5 + 0.5;
+    m_attributes[static_cast<std::size_t>(ctx.v)] = at.b.value / at.m.value * 0.5 + 0.5;
+    m_planes[static_cast<std::size_t>(ctx.face)] = at.face;
+}
+
+/// Attributes over w are linear on the screen: differences to the neighbours are derivatives.
+void ExactInputs::measure(const FootprintCtx& ctx) {
+    const auto over_w = [&](int attribute) {
+        const auto k = static_cast<std::size_t>(attribute + 1);
+        const double here = m_over_w[0][k];
+        return Changing{here, m_over_w[1][k] - here, m_over_w[2][k] - here};
+    };
+    Changing s = over_w(ctx.s), t = over_w(ctx.t), d = over_w(ctx.cube != 0 ? -1 : ctx.q);
+    if (ctx.cube != 0) {
+        const FacePoint p = face_point(s, t, over_w(ctx.r));
+        s = p.a;
+        t = p.b;
+        d = p.m;
+    }
+    double largest = 0.0;
+    for (double Changing::*along : {&Changing::dx, &Changing::dy}) {
+        const auto texels = [&](const Changing& c, float scale) {
+            return (c.*along - c.value / d.value * (d.*along)) / d.value *
+                   static_cast<double>(scale);
+        };
+        const double x = texels(s, ctx.scale[0]), y = texels(t, ctx.scale[1]);
+        const double z = ctx.cube == 0 && ctx.r >= 0 ? texels(over_w(ctx.r), ctx.scale[2]) : 0.0;
+        largest = std::max(largest, x * x + y * y + z * z);
+    }
+    m_attributes[static_cast<std::size_t>(ctx.out)] = largest;
+}
+
+void ExactInputs::fetch(const Texture& texture, int plane, int channels) {
+    for (int c = 0; c < channels; ++c) {
+        const auto texel = [&](int right, int down) {
+            return texel_value(texture, m_level, m_layer, m_column.texel + right,
+                               m_row.texel + down, c);
+        };
+        m_planes[static_cast<std::size_t>(plane + c)] =
+            mix(mix(texel(0, 0), texel(1, 0), m_column.weight),
+                mix(texel(0, 1), texel(1, 1), m_column.weight), m_row.weight);
+    }
+}
+
+const Texture& texture_at(const Shading& shading, const std::uint8_t* texels) {
+    return **std::find_if(shading.textures.begin(), shading.textures.end(),
+                          [&](const TexturePtr& t) { return t && t->texels() == texels; });
+}
+
+int chosen_level(const LevelAddressCtx& ctx, int lod) {
+    const int last = ctx.level_count - 1;
+    switch (ctx.choice) {
+        case LevelChoice::base:
+            break;
+        case LevelChoice::nearest:
+            return std::min((lod + 127) >> 8, last);
+        case LevelChoice::floor:
+            return lod >> 8;
+        case LevelChoice::ceiling:
+            return std::min((lod >> 8) + 1, last);
+    }
+    return 0;
+}
+
+int slice_behind(int at, int depth, AddressMode mode) {
+    if (mode == AddressMode::clamp_to_border) return std::min(at + 1, depth);
+    if (mode == AddressMode::repeat) return (at + 1) % depth;
+    return std::min(at + 1, depth - 1);
 }
 
 }  // namespace burnish

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "shade/attributes.hpp"
@@ -12,8 +14,9 @@ namespace burnish {
 /// fineness, colours that are not coded.
 class ExactInputs {
   public:
-    /// Interpolates what the triangle's corners have.
-    ExactInputs(const Shading& shading, const SetupTriangle& triangle, const Barycentrics& place);
+    /// Interpolates what the triangle's corners have at pixel (x, y) of the window.
+    ExactInputs(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
+                std::int32_t x, std::int32_t y);
 
     /// Operations come in the order of shading.inputs.
     void feed(const InputOp& op);
@@ -27,6 +30,7 @@ class ExactInputs {
     /// Coordinates of the last address, after the division by q.
     [[nodiscard]] double u() const { return m_u; }
     [[nodiscard]] double v() const { return m_v; }
+    [[nodiscard]] double r() const { return m_r; }
 
   private:
     /// What a colour, as texels deliver it, stands for.
@@ -34,15 +38,35 @@ class ExactInputs {
 
     void light(const LightingCtx& ctx);
     void locate(const AddressCtx& ctx);
-    void fetch(const FetchCtx& ctx);
+    void locate(const LevelAddressCtx& ctx);
+    void find_face(const CubeFaceCtx& ctx);
+    void measure(const FootprintCtx& ctx);
+    void fetch(const Texture& texture, int plane, int channels);
+
+    /// A texel of an axis and the weight of its neighbour.
+    struct Position {
+        int texel;
+        double weight;
+    };
+    static Position position(double u, int size, AddressMode mode, bool linear, bool rectangle);
 
     const Shading& m_shading;
     std::vector<double> m_attributes, m_planes;
-    AddressCtx m_address{};
-    double m_u = 0.0, m_v = 0.0;
+    /// Interpolated attributes over w, and 1/w as the first: here, one pixel right, one down.
+    std::array<std::vector<double>, 3> m_over_w;
+    double m_u = 0.0, m_v = 0.0, m_r = 0.0;
+    // What the last address found.
+    int m_level = 0, m_layer = 0;
+    Position m_column{}, m_row{};
 };
 
-/// Texture unit whose texels go to the register planes from `plane` on.
-std::size_t unit_of_plane(const Shading& shading, int plane);
+/// The texture that a fetch reads.
+const Texture& texture_at(const Shading& shading, const std::uint8_t* texels);
+
+/// Which level an address takes for a level of detail; numbers of levels and 1/256 levels.
+int chosen_level(const LevelAddressCtx& ctx, int lod);
+
+/// The slice behind slice `at`.
+int slice_behind(int at, int depth, AddressMode mode);
 
 }  // namespace burnish

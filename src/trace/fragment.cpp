@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "shade/attributes.hpp"
@@ -20,20 +21,27 @@ class LonePacket {
     LonePacket(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                std::int32_t x, std::int32_t y)
         : m_attributes(static_cast<std::size_t>(kMaxAttributes) * kAttributeStride),
-          m_planes(static_cast<std::size_t>(shading.program.plane_count) * kPacketSize) {
+          m_planes(static_cast<std::size_t>(shading.program.plane_count) * kPacketSize),
+          m_equations(kMaxInterpolated + 1) {
         const AttributePlane constant{1.0F, 0.0F, 0.0F};
-        std::vector<AttributePlane> planes(kMaxInterpolated + 1);
-        attribute_planes(shading, mesh, triangle, planes.data());
-        const Run over_w{planes.data(), 0, 1, x - triangle.reference_x, y - triangle.reference_y};
+        attribute_planes(shading, mesh, triangle, m_equations.data());
+        m_run = {m_equations.data(), 0, 1, x - triangle.reference_x, y - triangle.reference_y};
         // Divided by the constant 1, the plane of 1/w shows itself.
-        const AttributePlane only[2] = {constant, planes.front()};
-        Run alone = over_w;
+        const AttributePlane only[2] = {constant, m_equations.front()};
+        Run alone = m_run;
         alone.planes = only;
         table_reference().attributes(m_packet, {&alone, 1, 1});
         m_one_over_w = attribute(0);
-        table_reference().attributes(m_packet, {&over_w, 1, shading.interpolated()});
+        m_runs = {&m_run, 1, shading.interpolated()};
+        table_reference().attributes(m_packet, m_runs);
     }
+    LonePacket(const LonePacket&) = delete;
+    LonePacket& operator=(const LonePacket&) = delete;
+    LonePacket(LonePacket&&) = delete;
+    LonePacket& operator=(LonePacket&&) = delete;
+    ~LonePacket() = default;
 
+    [[nodiscard]] const AttributesCtx& runs() const { return m_runs; }
     Packet& packet() { return m_packet; }
     [[nodiscard]] float attribute(int k) const {
         return m_attributes[static_cast<std::size_t>(k) * kAttributeStride];
@@ -52,6 +60,9 @@ class LonePacket {
   private:
     AlignedVector<float> m_attributes;
     AlignedVector<std::int16_t> m_planes;
+    std::vector<AttributePlane> m_equations;
+    Run m_run{};
+    AttributesCtx m_runs{};
     std::uint16_t m_pixel[1] = {0};
     std::int32_t m_texel[1] = {0};
     std::int16_t m_weight_x[1] = {0}, m_weight_y[1] = {0};
@@ -64,9 +75,9 @@ TracedNumber number(float value, double exact) {
     return {static_cast<double>(value), exact};
 }
 
-/// The neighbour that a texture keeps beside texel `at` of `size`.
+/// The neighbour that a texture keeps beside texel `at` of `size`; -1 and `size` are border texels.
 int neighbour(int at, int size, Wrap wrap) {
-    if (at + 1 < size) return at + 1;
+    if (at + 1 < size || wrap == Wrap::clamp_to_border) return at + 1;
     return wrap == Wrap::repeat ? 0 : size - 1;
 }
 
@@ -79,13 +90,11 @@ class InputTracer {
     void run(TracedFragment& out) {
         for (std::size_t i = 0; i < m_shading.inputs.size(); ++i) {
             const InputOp& op = m_shading.inputs[i];
-            feed_input(op, m_shading.program.numbers, table_reference(), m_packet.packet());
+            feed_input(op, m_shading.program.numbers, table_reference(), m_packet.runs(),
+                       m_packet.packet());
             m_exact.feed(op);
             add_unit_numbers(i, out);
-            if (const auto* address = std::get_if<AddressCtx>(&op)) m_address = *address;
-            if (const auto* fetch = std::get_if<FetchCtx>(&op)) {
-                for (int k = 0; k < fetch->count; ++k) add_fetch(*fetch, k, out);
-            }
+            note(op, out);
         }
         for (const InterpolantPlanes& group : interpolant_planes(m_shading)) {
             TracedInterpolant traced{group.name, group.components, {}};
@@ -138,48 +147,105 @@ class InputTracer {
         to.exact[reg][c] = m_exact.plane(plane);
     }
 
-    void add_fetch(const FetchCtx& ctx, int k, TracedFragment& out) const {
-        const std::size_t unit = unit_of_plane(m_shading, ctx.plane[k]);
-        const Texture& texture = *m_shading.textures[unit];
-        TracedFetch fetch;
-        fetch.unit = static_cast<int>(unit);
-        fetch.width = texture.width();
-        fetch.height = texture.height();
-        fetch.sampler = texture.sampler();
-        const float q = m_address.q < 0 ? 1.0F : m_packet.attribute(m_address.q);
-        fetch.u = number(m_packet.attribute(m_address.u) / q, m_exact.u());
-        fetch.v = number(m_packet.attribute(m_address.v) / q, m_exact.v());
-        fetch.x0 = m_packet.texel() % ctx.pitch / 4;
-        fetch.y0 = m_packet.texel() / ctx.pitch;
-        fetch.x1 = neighbour(fetch.x0, fetch.width, fetch.sampler.wrap_s);
-        fetch.y1 = neighbour(fetch.y0, fetch.height, fetch.sampler.wrap_t);
-        fetch.weight_x = m_packet.weight_x();
-        fetch.weight_y = m_packet.weight_y();
+    void note(const InputOp& op, TracedFragment& out) {
+        if (const auto* address = std::get_if<AddressCtx>(&op)) {
+            m_level = {};
+            m_level.u = address->u;
+            m_level.v = address->v;
+            m_level.q = address->q;
+            m_level.r = m_level.lambda = -1;
+        } else if (const auto* level = std::get_if<LevelAddressCtx>(&op)) {
+            m_level = *level;
+        } else if (const auto* fetch = std::get_if<FetchCtx>(&op)) {
+            for (int k = 0; k < fetch->count; ++k) {
+                add_fetch(texture_at(m_shading, fetch->texels[k]), fetch->plane[k], out);
+            }
+        } else if (const auto* words = std::get_if<FetchWordsCtx>(&op)) {
+            add_fetch(texture_at(m_shading, words->texels), words->plane, out);
+        } else if (const auto* blend = std::get_if<BlendLevelsCtx>(&op)) {
+            if (unit_of_plane(blend->out)) set_color(blend->out, out.fetches.back());
+        }
+    }
+
+    /// The unit whose texel begins at register plane `plane`.
+    [[nodiscard]] std::optional<int> unit_of_plane(int plane) const {
+        for (const PlannedUnit& unit : m_shading.units) {
+            if (unit.registers == plane) return unit.unit;
+        }
+        return std::nullopt;
+    }
+
+    void set_color(int plane, TracedFetch& fetch) const {
         const double one = code_of_one(m_shading.program.numbers);
         for (int c = 0; c < 4; ++c) {
             const auto at = static_cast<std::size_t>(c);
-            for (int tap = 0; tap < 4; ++tap) {
-                fetch.taps[static_cast<std::size_t>(tap)][at] =
-                    texel_byte(texture, fetch.x0 + tap % 2, fetch.y0 + tap / 2, c);
-            }
-            const int plane = ctx.plane[k] + c;
-            fetch.codes[at] = m_packet.plane(plane);
-            fetch.color[at] = {fetch.codes[at] / one, m_exact.plane(plane)};
+            fetch.codes[at] = m_packet.plane(plane + c);
+            fetch.color[at] = {fetch.codes[at] / one, m_exact.plane(plane + c)};
         }
-        out.fetches.push_back(fetch);
+    }
+
+    void add_fetch(const Texture& texture, int plane, TracedFragment& out) const {
+        const TracedTaps taps = taps_of(texture);
+        const std::optional<int> unit = unit_of_plane(plane);
+        if (!unit) {  // of a level or slice that is blended with those before
+            out.fetches.back().further.push_back(taps);
+            return;
+        }
+        TracedFetch fetch;
+        static_cast<TracedTaps&>(fetch) = taps;
+        fetch.unit = *unit;
+        fetch.width = texture.width();
+        fetch.height = texture.height();
+        fetch.sampler = texture.sampler();
+        fetch.target = texture.target();
+        const float q = m_level.q < 0 ? 1.0F : m_packet.attribute(m_level.q);
+        fetch.u = number(m_packet.attribute(m_level.u) / q, m_exact.u());
+        fetch.v = number(m_packet.attribute(m_level.v) / q, m_exact.v());
+        if (m_level.r >= 0) fetch.r = number(m_packet.attribute(m_level.r) / q, m_exact.r());
+        if (m_level.lambda >= 0) {
+            fetch.lod = {m_packet.plane(m_level.lambda) / 256.0, m_exact.plane(m_level.lambda)};
+        }
+        set_color(plane, fetch);
+        out.fetches.push_back(std::move(fetch));
+    }
+
+    [[nodiscard]] TracedTaps taps_of(const Texture& texture) const {
+        TracedTaps taps;
+        const int lod = m_level.lambda < 0 ? 0 : m_packet.plane(m_level.lambda);
+        taps.level = m_level.level_count == 0 ? 0 : chosen_level(m_level, lod);
+        const TextureLevel& level = texture.levels()[static_cast<std::size_t>(taps.level)];
+        // A row and a column of border may lie before the first texel.
+        const std::int32_t margin = texture.pitch() + texture.texel_bytes();
+        const std::int32_t offset =
+            m_packet.texel() - level.offset + margin + texture.layer_bytes();
+        taps.layer = offset / texture.layer_bytes() - 1;
+        const std::int32_t in_layer = offset % texture.layer_bytes();
+        taps.y0 = in_layer / texture.pitch() - 1;
+        taps.x0 = in_layer % texture.pitch() / texture.texel_bytes() - 1;
+        taps.x1 = neighbour(taps.x0, level.width, texture.sampler().wrap_s);
+        taps.y1 = neighbour(taps.y0, level.height, texture.sampler().wrap_t);
+        taps.weight_x = m_packet.weight_x();
+        taps.weight_y = m_packet.weight_y();
+        for (int tap = 0; tap < 4; ++tap) {
+            for (int c = 0; c < 4; ++c) {
+                taps.taps[static_cast<std::size_t>(tap)][static_cast<std::size_t>(c)] = texel_bits(
+                    texture, taps.level, taps.layer, taps.x0 + tap % 2, taps.y0 + tap / 2, c);
+            }
+        }
+        return taps;
     }
 
     const Shading& m_shading;
     LonePacket& m_packet;
     ExactInputs& m_exact;
-    AddressCtx m_address{};
+    LevelAddressCtx m_level{};  ///< of plain addresses the coordinates only
 };
 
 /// One fragment, followed on both kinds of numbers.
 struct TwoPackets {
     TwoPackets(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
-               std::int32_t x, std::int32_t y, const Barycentrics& place)
-        : packet(shading, mesh, triangle, x, y), exact(shading, triangle, place) {}
+               std::int32_t x, std::int32_t y)
+        : packet(shading, mesh, triangle, x, y), exact(shading, mesh, triangle, x, y) {}
     LonePacket packet;  // points into itself: not to be moved
     ExactInputs exact;
 };
@@ -223,7 +289,7 @@ FetchCodes fetch_codes(StageFetches fetches) {
             if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
                 packet.set_attribute(decode->attribute, at.at(coordinate++));
             } else {
-                feed_input(op, numbers, table_reference(), packet.packet());
+                feed_input(op, numbers, table_reference(), packet.runs(), packet.packet());
             }
         }
         Codes codes{};
@@ -256,8 +322,7 @@ FetchReals fetch_reals(StageFetches fetches) {
 FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
                             std::int32_t y, TracedFragment& out) {
     const Barycentrics place = barycentrics(draw.mesh(), triangle, x, y);
-    const auto fragment =
-        std::make_shared<TwoPackets>(draw.shading, draw.mesh(), triangle, x, y, place);
+    const auto fragment = std::make_shared<TwoPackets>(draw.shading, draw.mesh(), triangle, x, y);
     LonePacket& packet = fragment->packet;
     out.barycentrics = place.weight;
     out.one_over_w = number(packet.one_over_w(), place.one_over_w);

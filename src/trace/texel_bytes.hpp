@@ -6,20 +6,19 @@
 
 namespace burnish {
 
-/// The image's byte of channel c (0 .. 3: r, g, b, a) of the texel in column x and row y; x may be
-/// width() and y height(), where a texture keeps the right and the lower neighbours of its last
-/// texels.
-inline std::uint8_t texel_byte(const Texture& texture, int x, int y, int c) {
-    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(y) * texture.pitch() + 4 * x + c;
-    const std::uint8_t stored = texture.texels()[offset];
-    return texture.format() == TexelFormat::signed_rgba8 ? stored ^ 0x80U : stored;
+/// Bits of channel c (0 .. 3: r, g, b, a; hilo: 0, 1) of a texel as images have them: signed ones
+/// in two's complement. x and y may be one beyond the sides of the level, where a texture keeps the
+/// neighbours of its last texels.
+inline std::uint16_t texel_bits(const Texture& texture, int level, int layer, int x, int y, int c) {
+    const int number = texture.texel(static_cast<std::size_t>(level), layer, x, y, c);
+    return static_cast<std::uint16_t>(has_words(texture.format()) ? number : number & 255);
 }
 
-/// The number that it stands for.
-inline double texel_value(const Texture& texture, int x, int y, int c) {
-    const std::uint8_t byte = texel_byte(texture, x, y, c);
-    if (texture.format() == TexelFormat::rgba8) return byte / 255.0;
-    return static_cast<std::int8_t>(byte) / 128.0;
+/// The number that the texel stands for.
+inline double texel_value(const Texture& texture, int level, int layer, int x, int y, int c) {
+    const bool words = has_words(texture.format());
+    const double one = texture.is_signed(c) ? (words ? 32768.0 : 128.0) : (words ? 65535.0 : 255.0);
+    return texture.texel(static_cast<std::size_t>(level), layer, x, y, c) / one;
 }
 
 }  // namespace burnish

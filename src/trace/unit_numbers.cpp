@@ -1,6 +1,7 @@
 #include "trace/unit_numbers.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 
@@ -23,7 +24,7 @@ std::string texel_name(const Shading& shading, int plane, int& component) {
     for (const PlannedUnit& unit : shading.units) {
         component = plane - unit.registers;
         if (unit.registers >= 0 && component >= 0 && component < 4)
-            return "tex" + std::to_string(unit.unit);
+            return fmt::format("tex{}", unit.unit);
     }
     component = 0;
     return "texel";
@@ -68,6 +69,8 @@ std::optional<UnitNumbers> unit_numbers(const InputOp& op, const Shading& shadin
         return UnitNumbers{
             reading_name(c->reading) + name, std::string(1, "rgba"[component]), {c->attribute}};
     }
+    if (const auto* c = std::get_if<HiloCtx>(&op))
+        return UnitNumbers{"texel", "hl", {c->out, c->out + 1}};
     if (const auto* c = std::get_if<AffineCtx>(&op)) return UnitNumbers{"mapped", "x", {c->to}};
     if (const auto* c = std::get_if<DotCtx>(&op)) return UnitNumbers{"dot", "p", {c->to}};
     if (const auto* c = std::get_if<HemisphereCtx>(&op))

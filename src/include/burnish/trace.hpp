@@ -35,17 +35,27 @@ struct TracedInterpolant {
     std::vector<TracedNumber> numbers;
 };
 
-/// A texture fetch of one unit.
-struct TracedFetch {
-    int unit = 0;
-    int width = 0, height = 0;  ///< texels
-    Sampler sampler;
-    TracedNumber u, v;                   ///< after the division by q; v grows downward
+/// Four texels of one mip level, face or slice, and how they were weighted.
+struct TracedTaps {
+    int level = 0;
+    int layer = 0;                       ///< cube face or slice
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< upper left and lower right texel
     int weight_x = 0, weight_y = 0;      ///< of the right and the lower texels: 1/256, 0 .. 255
-    /// Bytes r, g, b, a of (x0, y0), (x1, y0), (x0, y1), (x1, y1).
-    std::array<std::array<std::uint8_t, 4>, 4> taps{};
-    std::array<int, 4> codes{};  ///< as the register gets them
+    /// Bytes or words r, g, b, a of (x0, y0), (x1, y0), (x0, y1), (x1, y1), as images hold them.
+    std::array<std::array<std::uint16_t, 4>, 4> taps{};
+};
+
+/// A texture fetch of one unit; the first of its taps, which it has with plain textures alone.
+struct TracedFetch : TracedTaps {
+    int unit = 0;
+    int width = 0, height = 0;  ///< texels of level 0
+    Sampler sampler;
+    TextureTarget target = TextureTarget::two_d;
+    TracedNumber u, v;                ///< after the division by q; v grows downward
+    std::optional<TracedNumber> r;    ///< of 3D textures, the same
+    std::optional<TracedNumber> lod;  ///< level of detail as it was used, where it was looked at
+    std::vector<TracedTaps> further;  ///< taps of slices behind and of further levels
+    std::array<int, 4> codes{};       ///< as the register gets them
     std::array<TracedNumber, 4> color{};
 };
 
