@@ -14,6 +14,7 @@
 #include "models/abp_modified.hpp"
 #include "raster/setup.hpp"
 #include "raster/tile.hpp"
+#include "shade/output.hpp"
 #include "shade/shading.hpp"
 
 namespace burnish {
@@ -26,7 +27,9 @@ struct Draw {
     std::span<const std::uint32_t> indices;
     Shading shading;
     Facing facing = Facing::any;
-    DepthRule depth{};
+    DepthRule depth{};  ///< before shading
+    FragmentOutput output;
+    bool ordered = false;  ///< fragments must be shaded in the order of submission
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
     [[nodiscard]] ScreenMesh mesh() const { return {screen, homogeneous, indices}; }

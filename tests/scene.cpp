@@ -201,7 +201,6 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
     const std::string material = "[[materials]]\nname = \"m\"\n";
-    const std::string object = "[[objects]]\nshape = \"cube\"\n";
     const std::vector<std::string> texts{"[machine]\nprofile = \"double\"\n",
                                          "[machine]\nfilter_order = \"after\"\n",
                                          "[machine]\nhalf_vector = \"cube:64\"\n",
@@ -209,13 +208,11 @@ TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
                                          texture + "format = \"hilo16\"\n",
                                          texture + "target = \"cube\"\n",
                                          texture + "lod_bias = 1.0\n",
-                                         material + "alpha_test = \"greater\"\n",
                                          material + "texture_shader = \"a.ts\"\n",
                                          material + "normal_y = \"down\"\n",
                                          material +
                                              "units = []\n[materials.hardware]\n"
-                                             "cull_fragment_bits = \"0101\"\n",
-                                         object + "blend = \"alpha\"\n"};
+                                             "cull_fragment_bits = \"0101\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }
