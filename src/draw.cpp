@@ -113,18 +113,6 @@ void transform_raw(Draw& draw, const FrameView& frame, const Object& object,
     }
 }
 
-/// Depth test, alpha test and blending. A picture of a register shows it as the last fragment left
-/// it: nothing is blended, and the alpha that a test would look at is not computed.
-void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
-    const DepthRule depth = comparison_rule(object.raster.depth_test, object.raster.depth_write);
-    const bool shows_colors = !frame.shown.has_value();
-    const bool tests_alpha = shows_colors && object.material != nullptr;
-    draw.output = plan_output(draw.shading, shows_colors ? object.raster.blend : std::nullopt,
-                              tests_alpha ? object.material->alpha_test : AlphaTest{}, depth);
-    draw.depth = early_rule(draw.shading, draw.output);
-    draw.ordered = needs_order(draw.output);
-}
-
 }  // namespace
 
 ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps) {
@@ -170,6 +158,18 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
         draw.indices = draw.own_indices;
         draw.shading.frames = {};
     }
+}
+
+void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
+    const DepthRule depth = comparison_rule(object.raster.depth_test, object.raster.depth_write);
+    // A picture of a register shows it as the last fragment left it: nothing is blended, and the
+    // alpha that a test would look at is not computed.
+    const bool shows_colors = !frame.shown.has_value();
+    const bool tests_alpha = shows_colors && object.material != nullptr;
+    draw.output = plan_output(draw.shading, shows_colors ? object.raster.blend : std::nullopt,
+                              tests_alpha ? object.material->alpha_test : AlphaTest{}, depth);
+    draw.depth = early_rule(draw.shading, draw.output);
+    draw.ordered = needs_order(draw.output);
 }
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,

@@ -56,6 +56,9 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
 /// The same with the object's own program and what the frame shows of it.
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps);
 
+/// Depth test, alpha test and blending, as draw.shading, which is planned, calls for them.
+void plan_fragments(Draw& draw, const FrameView& frame, const Object& object);
+
 /// Vertices to the screen, and what they hand to the interpolators.
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
                     const KernelTable& kernels, WorkerPool& pool);
