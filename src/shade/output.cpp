@@ -130,18 +130,19 @@ void test_fragments(const Shading& shading, const FragmentOutput& output,
     }
 }
 
-void write_pixels(const Shading& shading, const FragmentOutput& output, const KernelTable& kernels,
+void write_pixels(const std::array<std::int16_t, 4>& colors, NumberModel numbers,
+                  const std::optional<Blend>& blend, const KernelTable& kernels,
                   const OutputTile& tile, Packet& packet) {
-    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
-    if (output.blend) {
-        BlendCtx blend = blend_ctx(*output.blend);
-        std::copy_n(shading.program.result.begin(), 4, blend.plane);
-        blend.format = tile.format;
-        blend.tile = tile.pixels;
-        return (nine_bit ? kernels.blend_nine_bit : kernels.blend_wide)(packet, blend);
+    const bool nine_bit = numbers == NumberModel::nine_bit;
+    if (blend) {
+        BlendCtx ctx = blend_ctx(*blend);
+        std::copy_n(colors.begin(), 4, ctx.plane);
+        ctx.format = tile.format;
+        ctx.tile = tile.pixels;
+        return (nine_bit ? kernels.blend_nine_bit : kernels.blend_wide)(packet, ctx);
     }
     StoreCtx store{};
-    std::copy_n(shading.program.result.begin(), 4, store.plane);
+    std::copy_n(colors.begin(), 4, store.plane);
     store.format = tile.format;
     store.tile = tile.pixels;
     (nine_bit ? kernels.store_nine_bit : kernels.store_wide)(packet, store);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <burnish/scene.hpp>
 #include <cstdint>
 #include <optional>
@@ -47,8 +48,9 @@ void test_fragments(const Shading& shading, const FragmentOutput& output,
                     const KernelTable& kernels, const DepthRun* runs, int run_count,
                     const OutputTile& tile, std::uint16_t* stored, Packet& packet);
 
-/// Colours to the pixels `packet.pixels`, blended or not.
-void write_pixels(const Shading& shading, const FragmentOutput& output, const KernelTable& kernels,
+/// Colours of the planes `colors` to the pixels `packet.pixels`, blended if `blend` says how.
+void write_pixels(const std::array<std::int16_t, 4>& colors, NumberModel numbers,
+                  const std::optional<Blend>& blend, const KernelTable& kernels,
                   const OutputTile& tile, Packet& packet);
 
 }  // namespace burnish

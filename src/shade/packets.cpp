@@ -147,7 +147,8 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
                        m_packet);
         m_packet.pixels = m_stored.data();
     }
-    write_pixels(shading, *m_draw.output, kernels, m_tile.output, m_packet);
+    write_pixels(shading.program.result, shading.program.numbers, m_draw.output->blend, kernels,
+                 m_tile.output, m_packet);
     m_shaded += static_cast<std::uint64_t>(m_packet.count);
     m_packet.pixels += m_packet.count;
     m_packet.count = 0;

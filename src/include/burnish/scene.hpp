@@ -123,6 +123,7 @@ struct Blend {
     BlendEquation equation = BlendEquation::add;
     glm::vec4 constant{0.0F};  ///< of the factors `constant_color`, [0, 1]
 
+    friend bool operator==(const Blend&, const Blend&) = default;
     static constexpr Blend alpha() {
         return {BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
     }
