@@ -162,14 +162,16 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
 
 void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
     const DepthRule depth = comparison_rule(object.raster.depth_test, object.raster.depth_write);
-    // A picture of a register shows it as the last fragment left it: nothing is blended, and the
-    // alpha that a test would look at is not computed.
-    const bool shows_colors = !frame.shown.has_value();
-    const bool tests_alpha = shows_colors && object.material != nullptr;
+    // What is shown instead of colours is that of the last fragment: nothing is blended. Where it
+    // is a register, the alpha that a test would look at is not computed.
+    const bool shows_colors = !frame.shown && !frame.aov;
+    const bool tests_alpha = !frame.shown && object.material != nullptr;
     draw.output = plan_output(draw.shading, shows_colors ? object.raster.blend : std::nullopt,
                               tests_alpha ? object.material->alpha_test : AlphaTest{}, depth);
     draw.depth = early_rule(draw.shading, draw.output);
     draw.ordered = needs_order(draw.output);
+    draw.shown.reset();
+    if (frame.aov) draw.shown = shown_values(*frame.aov, object);
 }
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,

@@ -16,6 +16,7 @@
 #include "raster/tile.hpp"
 #include "shade/output.hpp"
 #include "shade/shading.hpp"
+#include "shade/shown.hpp"
 
 namespace burnish {
 
@@ -29,7 +30,8 @@ struct Draw {
     Facing facing = Facing::any;
     DepthRule depth{};  ///< before shading
     FragmentOutput output;
-    bool ordered = false;  ///< fragments must be shaded in the order of submission
+    bool ordered = false;              ///< fragments must be shaded in the order of submission
+    std::optional<ShownValues> shown;  ///< instead of colours
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
     [[nodiscard]] ScreenMesh mesh() const { return {screen, homogeneous, indices}; }
@@ -41,6 +43,7 @@ struct FrameView {
     View view;
     Viewport viewport;
     std::optional<ShownRegister> shown = {};
+    std::optional<Aov> aov = {};
     PixelFormat format = PixelFormat::rgba8;
 };
 

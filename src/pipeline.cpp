@@ -57,7 +57,7 @@ struct Renderer::State {
           memory_cap(options.memory_cap) {}
 
     void prepare(const Scene& scene, const Framebuffer& target,
-                 const std::optional<ShownRegister>& shown);
+                 const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
@@ -98,23 +98,28 @@ int Renderer::threads() const noexcept {
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
-    return render_shown(scene, target, std::nullopt);
+    return render_shown(scene, target, std::nullopt, std::nullopt);
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, const ShownRegister& shown) {
     require_showable(shown.reg, scene.machine);
-    return render_shown(scene, target, shown);
+    return render_shown(scene, target, shown, std::nullopt);
+}
+
+FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) {
+    return render_shown(scene, target, std::nullopt, shown);
 }
 
 /// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
 /// the memory cap, as many as fit; then the tiles are drawn and the next ones follow.
 FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
-                                  const std::optional<ShownRegister>& shown) {
+                                  const std::optional<ShownRegister>& shown,
+                                  std::optional<Aov> aov) {
     State& s = *m_state;
     FrameStats stats;
     try {
         const auto start = Clock::now();
-        s.prepare(scene, target, shown);
+        s.prepare(scene, target, shown, aov);
         s.transform(scene);
         stats.geometry_ms = milliseconds_since(start);
         for (bool first_round = true; first_round || s.next_range < s.ranges.size();
@@ -141,11 +146,15 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
 
 /// Camera, programs and raster state; the list of chunks.
 void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
-                              const std::optional<ShownRegister>& shown) {
+                              const std::optional<ShownRegister>& shown, std::optional<Aov> aov) {
     scene.machine.validate();
     size = {target.width(), target.height()};
-    frame = {&scene, make_view(scene.camera, size.width, size.height),
-             make_viewport(scene.machine, size.width, size.height), shown, target.format()};
+    frame = {&scene,
+             make_view(scene.camera, size.width, size.height),
+             make_viewport(scene.machine, size.width, size.height),
+             shown,
+             aov,
+             target.format()};
     while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
     draws.resize(scene.objects.size());
     ranges.clear();
@@ -169,7 +178,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     }
     for (const auto& worker : workers) {
         worker->tiles = 0;
-        worker->image.set_background(scene.background);
+        worker->image.set_background(aov ? background_of(*aov) : scene.background);
         worker->shader.reset_count();
     }
 }
@@ -181,7 +190,8 @@ void Renderer::State::transform(const Scene& scene) {
         Draw& draw = *draws[i];
         transform_draw(draw, frame, scene.objects[i], kernels, pool);
         depth_rules.push_back(draw.depth);
-        shaded_draws.push_back({&draw.shading, &draw.output, draw.mesh()});
+        shaded_draws.push_back(
+            {&draw.shading, &draw.output, draw.mesh(), draw.shown ? &*draw.shown : nullptr});
     }
 }
 

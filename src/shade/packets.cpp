@@ -30,6 +30,7 @@ void PacketShader::begin(const ShadedTile& tile) {
     m_packet.count = 0;
     m_runs.clear();
     m_depth_runs.clear();
+    m_shown_triangles.clear();
 }
 
 void PacketShader::shade(const TileFragments& fragments, std::span<const ShadedDraw> draws,
@@ -112,7 +113,8 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         } else if (first == 0) {
             m_packet.pixels = fragments.shaded;
         }
-        if (m_draw.output->late_depth) {
+        if (m_draw.shown != nullptr) m_shown_triangles.push_back(&triangle);
+        if (m_draw.output->late_depth || m_draw.shown != nullptr) {
             m_depth_runs.push_back({triangle.z, triangle.zx, triangle.zy, triangle.z_low,
                                     triangle.z_high, first, count, offset_x, offset_y});
         }
@@ -130,6 +132,31 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
 void PacketShader::shade_packet(const KernelTable& kernels) {
     if (m_packet.count == 0) return;
     const Shading& shading = *m_draw.shading;
+    const FragmentOutput& output = *m_draw.output;
+    if (m_draw.shown == nullptr || output.late_depth) shade_colors(kernels);
+    if (m_copied) {
+        test_fragments(shading, output, kernels, m_depth_runs.data(),
+                       static_cast<int>(m_depth_runs.size()), m_tile.output, m_stored.data(),
+                       m_packet);
+    }
+    if (m_draw.shown != nullptr) {
+        show_values(kernels);
+    } else {
+        if (m_copied) m_packet.pixels = m_stored.data();
+        write_pixels(shading.program.result, shading.program.numbers, output.blend, kernels,
+                     m_tile.output, m_packet);
+    }
+    m_shaded += static_cast<std::uint64_t>(m_packet.count);
+    m_packet.pixels += m_packet.count;
+    m_packet.count = 0;
+    m_runs.clear();
+    m_depth_runs.clear();
+    m_shown_triangles.clear();
+    m_pending.blocks = 0;
+}
+
+void PacketShader::shade_colors(const KernelTable& kernels) {
+    const Shading& shading = *m_draw.shading;
     const auto planes = static_cast<std::size_t>(shading.program.plane_count) * kPacketSize;
     if (m_planes.size() < planes) {
         m_planes.resize(planes);
@@ -141,20 +168,30 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
     const AttributesCtx runs{m_runs.data(), static_cast<int>(m_runs.size()),
                              shading.interpolated()};
     burnish::shade_packet(shading, kernels, runs, m_packet);
-    if (m_copied) {
-        test_fragments(shading, *m_draw.output, kernels, m_depth_runs.data(),
-                       static_cast<int>(m_depth_runs.size()), m_tile.output, m_stored.data(),
-                       m_packet);
-        m_packet.pixels = m_stored.data();
+}
+
+/// The triangles are interpolated once more, for the values.
+void PacketShader::show_values(const KernelTable& kernels) {
+    const ShownValues& shown = *m_draw.shown;
+    const auto planes = static_cast<std::size_t>(shown.values.interpolated()) + 1;
+    m_shown_equations.resize(m_runs.size() * planes);
+    m_shown_runs.clear();
+    for (std::size_t i = 0; i < m_runs.size(); ++i) {
+        const SetupTriangle& triangle = *m_shown_triangles[i];
+        m_runs[i].planes = m_shown_equations.data() + i * planes;
+        attribute_planes(shown.values, m_draw.mesh, triangle,
+                         m_shown_equations.data() + i * planes);
+        m_shown_runs.push_back({m_depth_runs[i], triangle.draw, triangle.number});
     }
-    write_pixels(shading.program.result, shading.program.numbers, m_draw.output->blend, kernels,
-                 m_tile.output, m_packet);
-    m_shaded += static_cast<std::uint64_t>(m_packet.count);
-    m_packet.pixels += m_packet.count;
-    m_packet.count = 0;
-    m_runs.clear();
-    m_depth_runs.clear();
-    m_pending.blocks = 0;
+    float own_depths[kPacketSize];
+    const int depth = m_draw.shading->depth_attribute;
+    if (depth >= 0) {
+        std::copy_n(m_packet.attributes + depth * kAttributeStride, kPacketSize, own_depths);
+    }
+    kernels.attributes(
+        m_packet, {m_runs.data(), static_cast<int>(m_runs.size()), shown.values.interpolated()});
+    write_values(shown, m_packet, m_shown_runs, depth >= 0 ? own_depths : nullptr,
+                 m_copied ? m_stored.data() : m_packet.pixels, m_tile.output);
 }
 
 }  // namespace burnish

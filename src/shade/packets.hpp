@@ -10,6 +10,7 @@
 #include "shade/output.hpp"
 #include "shade/pixel_list.hpp"
 #include "shade/shading.hpp"
+#include "shade/shown.hpp"
 
 namespace burnish {
 
@@ -18,6 +19,7 @@ struct ShadedDraw {
     const Shading* shading;
     const FragmentOutput* output;
     ScreenMesh mesh;
+    const ShownValues* shown = nullptr;  ///< what goes to the tile instead of colours
 };
 
 /// A tile to shade into: its first pixel, and where its pixels go.
@@ -63,6 +65,8 @@ class PacketShader {
     };
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
     void shade_packet(const KernelTable& kernels);
+    void shade_colors(const KernelTable& kernels);
+    void show_values(const KernelTable& kernels);
     [[nodiscard]] bool holds_any(const PixelMask& pixels) const;
     void hold(const PixelMask& pixels);
 
@@ -78,7 +82,10 @@ class PacketShader {
     PixelList m_list;
     std::vector<Run> m_runs;
     std::vector<DepthRun> m_depth_runs;
+    std::vector<const SetupTriangle*> m_shown_triangles;  ///< of the runs, where values are shown
+    std::vector<ShownRun> m_shown_runs;
     AlignedVector<AttributePlane> m_plane_equations;  ///< of the runs, one after the other
+    AlignedVector<AttributePlane> m_shown_equations;
     AlignedVector<float> m_attributes;
     AlignedVector<std::int16_t> m_planes, m_weights;
     AlignedVector<std::int32_t> m_texels;

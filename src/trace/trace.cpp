@@ -43,7 +43,7 @@ class TracedFrame {
         TracedFragment out;
         out.object = number;
         out.material = object.material ? object.material->name : Material{}.name;
-        out.triangle = seen.triangle;
+        out.triangle = seen.setup.number;
         out.clipped = seen.setup.clipped != 0;
         out.depth = static_cast<double>(seen.depth);
         const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, out);

@@ -13,14 +13,6 @@ namespace burnish {
 
 namespace {
 
-/// A fragment that passed, and where its triangle comes from.
-struct Passed {
-    SetupTriangle setup;
-    float depth;
-    std::size_t first;  ///< of the chunk
-    std::size_t place;  ///< in the chunk
-};
-
 /// The fragments of a pixel in the order of submission, each through the tests of its draw.
 class PixelWatch {
   public:
@@ -48,13 +40,7 @@ class PixelWatch {
         }
     }
 
-    [[nodiscard]] std::vector<VisibleTriangle> found() {
-        std::vector<VisibleTriangle> result;
-        for (const Passed& p : m_passed) {
-            result.push_back({isolate(p.setup.draw, p.first, p.place), p.setup, p.depth});
-        }
-        return result;
-    }
+    [[nodiscard]] const std::vector<VisibleTriangle>& found() const { return m_passed; }
 
   private:
     [[nodiscard]] ChunkSource source(std::uint32_t draw) const {
@@ -71,7 +57,7 @@ class PixelWatch {
             if (!depth || !covers(triangle, draw.depth, m_depth, m_block_far)) continue;
             if (draw.output.late_depth && !(depth = late_depth(draw, triangle))) continue;
             if (!draw.output.blend) m_passed.clear();
-            m_passed.push_back({triangle, *depth, first, place});
+            m_passed.push_back({triangle, *depth});
         }
     }
 
@@ -120,17 +106,6 @@ class PixelWatch {
         return draw.output.depth.write != 0 ? m_depth[m_pixel] : before;
     }
 
-    /// Which triangle the one at `place` of the chunk from `first` on is: clipped ones take several
-    /// places, culled ones none.
-    std::size_t isolate(std::uint32_t draw, std::size_t first, std::size_t place) {
-        std::size_t triangle = first;
-        for (std::size_t before = 0;; ++triangle) {
-            m_chunk.fill(source(draw), triangle, triangle + 1);
-            before += m_chunk.counts().binned;
-            if (before > place) return triangle;
-        }
-    }
-
     FrameDraws m_frame;
     std::int32_t m_x, m_y;
     std::size_t m_pixel;
@@ -140,7 +115,7 @@ class PixelWatch {
     AlignedVector<float> m_colors;
     PacketShader m_shader;
     Chunk m_chunk;
-    std::vector<Passed> m_passed;
+    std::vector<VisibleTriangle> m_passed;
 };
 
 }  // namespace

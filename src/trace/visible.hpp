@@ -17,9 +17,8 @@ struct FrameDraws {
 
 /// A triangle whose fragment is in a pixel's colour.
 struct VisibleTriangle {
-    std::size_t triangle;  ///< of its draw, in the order of submission
-    SetupTriangle setup;   ///< of a clipped triangle, the piece that covers the pixel
-    float depth;           ///< window depth at the pixel
+    SetupTriangle setup;  ///< of a clipped triangle, the piece that covers the pixel
+    float depth;          ///< window depth at the pixel
 };
 
 /// What is visible at pixel (x, y), which lies in the frame, in the order of submission: all that
