@@ -46,33 +46,6 @@ std::vector<std::uint32_t> triangle_indices(Topology topology, std::uint32_t cou
     return out;
 }
 
-DepthRule depth_rule(const RasterState& state) {
-    const auto rule = [&](int less, int equal, int greater) {
-        return DepthRule{static_cast<std::uint8_t>(less), static_cast<std::uint8_t>(equal),
-                         static_cast<std::uint8_t>(greater),
-                         static_cast<std::uint8_t>(state.depth_write ? 1 : 0)};
-    };
-    switch (state.depth_test) {
-        case DepthTest::never:
-            return rule(0, 0, 0);
-        case DepthTest::less:
-            return rule(1, 0, 0);
-        case DepthTest::equal:
-            return rule(0, 1, 0);
-        case DepthTest::lequal:
-            return rule(1, 1, 0);
-        case DepthTest::greater:
-            return rule(0, 0, 1);
-        case DepthTest::notequal:
-            return rule(1, 0, 1);
-        case DepthTest::gequal:
-            return rule(0, 1, 1);
-        case DepthTest::always:
-            return rule(1, 1, 1);
-    }
-    return rule(0, 0, 0);
-}
-
 Facing facing_of(Cull cull) {
     switch (cull) {
         case Cull::none:
@@ -171,10 +144,10 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
         light_space(light_of(*frame.scene), frame.view, object.world_from_object);
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
     draw.facing = facing_of(object.raster.cull);
-    draw.depth = depth_rule(object.raster);
     draw.shading.space = space;
     draw.shading.lit = {program.lit_tint, program.lit_base};
     plan_shading(draw.shading, program, frame.scene->machine, mesh != nullptr, wanted);
+    plan_fragments(draw, frame, object);
     if (mesh != nullptr) {
         draw.indices = mesh->indices();
         draw.shading.frames = mesh->frames();
@@ -185,6 +158,20 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
         draw.indices = draw.own_indices;
         draw.shading.frames = {};
     }
+}
+
+void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
+    const DepthRule depth = comparison_rule(object.raster.depth_test, object.raster.depth_write);
+    // What is shown instead of colours is that of the last fragment: nothing is blended. Where it
+    // is a register, the alpha that a test would look at is not computed.
+    const bool shows_colors = !frame.shown && !frame.aov;
+    const bool tests_alpha = !frame.shown && object.material != nullptr;
+    draw.output = plan_output(draw.shading, shows_colors ? object.raster.blend : std::nullopt,
+                              tests_alpha ? object.material->alpha_test : AlphaTest{}, depth);
+    draw.depth = early_rule(draw.shading, draw.output);
+    draw.ordered = needs_order(draw.output);
+    draw.shown.reset();
+    if (frame.aov) draw.shown = shown_values(*frame.aov, object);
 }
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,

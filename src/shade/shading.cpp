@@ -252,17 +252,6 @@ class Planner {
     LightingCtx m_lighting{};
 };
 
-/// What no stage of this version does yet.
-void require_supported(const Shading& shading) {
-    if (shading.keep_attribute >= 0)
-        throw Error(ErrorCode::bad_program, "cull_fragment is not supported yet");
-    if (shading.depth_attribute >= 0)
-        throw Error(ErrorCode::bad_program, "replacing the depth is not supported yet");
-    if (shading.quads)
-        throw Error(ErrorCode::bad_program,
-                    "a level of detail at computed coordinates is not supported yet");
-}
-
 }  // namespace
 
 void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
@@ -276,7 +265,6 @@ void plan_shading(Shading& shading, const ProgramMaterial& material, const Machi
     shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
     shading.textures = material.units;
     Planner(shading, material, machine, is_mesh).plan(shading.space);
-    require_supported(shading);
 }
 
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out) {
@@ -366,18 +354,12 @@ void run_program(const Shading& shading, const KernelTable& kernels, const Attri
 }
 
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
-                  StoreFormat format, void* tile, Packet& packet) {
-    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
+                  Packet& packet) {
     kernels.attributes(packet, runs);
     for (const InputOp& op : shading.inputs) {
         feed_input(op, shading.program.numbers, kernels, runs, packet);
     }
     run_program(shading, kernels, runs, packet);
-    StoreCtx store{};
-    std::copy_n(shading.program.result.begin(), 4, store.plane);
-    store.format = format;
-    store.tile = tile;
-    (nine_bit ? kernels.store_nine_bit : kernels.store_wide)(packet, store);
 }
 
 }  // namespace burnish

@@ -44,9 +44,12 @@ struct Shading {
     std::vector<InputOp> inputs;
     UnitStates unit_states;
     std::vector<PlannedUnit> units;  ///< first_op counts `inputs`
-    int keep_attribute = -1;         ///< > 0 where the fragment lives, or -1: everywhere
-    int depth_attribute = -1;        ///< the fragment's own window depth, or -1
-    bool quads = false;              ///< texels with mipmaps at coordinates that no triangle knows
+    /// Attribute plane, computed by the input ops; a fragment lives only where it is > 0. Or -1.
+    int keep_attribute = -1;
+    /// Attribute plane with the fragment's own window depth; outside [0, 1] or NaN: the fragment is
+    /// dropped. Or -1.
+    int depth_attribute = -1;
+    bool quads = false;  ///< fragments must come as whole 2x2 quads of one triangle
     BoundProgram program;
     std::vector<StageSampling> stage_fetches;  ///< of program.fetches, in their order
     std::vector<TexturePtr> textures;          ///< keeps the texels alive
@@ -72,9 +75,9 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
 void run_program(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                  Packet& packet);
 
-/// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
-/// constant planes are in place.
+/// Input operations and program: colours to the planes `shading.program.result`. The packet's runs,
+/// pixels and constant planes are in place.
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
-                  StoreFormat format, void* tile, Packet& packet);
+                  Packet& packet);
 
 }  // namespace burnish
