@@ -66,7 +66,7 @@ void ExactInputs::feed(const InputOp& op) {
         }
         void operator()(const CubeFaceCtx& c) const { to.find_face(c); }
         void operator()(const PlaneFootprintCtx& c) const { to.measure(c.footprint); }
-        void operator()(const QuadFootprintCtx& c) const { to.measure(c.footprint); }
+        void operator()(const QuadFootprintCtx& /*c*/) const {}  // the caller's
         void operator()(const LevelOfDetailCtx& c) const {
             const double squared = std::clamp(to.attribute(c.footprint), 0x1p-64, 0x1p64);
             const double lod = 0.5 * dmath::log2(squared) + c.bias / 256.0;

@@ -18,7 +18,8 @@ class ExactInputs {
     ExactInputs(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                 std::int32_t x, std::int32_t y);
 
-    /// Operations come in the order of shading.inputs.
+    /// Operations come in the order of shading.inputs. What a quad covers, QuadFootprintCtx, is for
+    /// the caller to set.
     void feed(const InputOp& op);
 
     [[nodiscard]] double attribute(int k) const {

@@ -1,7 +1,6 @@
 #include "trace/fragment.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -15,7 +14,9 @@ namespace burnish {
 
 namespace {
 
-/// The scalar kernels on a packet of one fragment, which lies at the tile's first pixel.
+/// The scalar kernels on a packet with the traced fragment and, where operations look at
+/// neighbours, the three others of its quad. The packet's first fragment lies at the tile's first
+/// pixel.
 class LonePacket {
   public:
     LonePacket(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
@@ -25,7 +26,11 @@ class LonePacket {
           m_equations(kMaxInterpolated + 1) {
         const AttributePlane constant{1.0F, 0.0F, 0.0F};
         attribute_planes(shading, mesh, triangle, m_equations.data());
-        m_run = {m_equations.data(), 0, 1, x - triangle.reference_x, y - triangle.reference_y};
+        const int column = shading.quads ? x % 2 : 0, row = shading.quads ? y % 2 : 0;
+        m_at = 2 * row + column;
+        m_packet.count = shading.quads ? 4 : 1;
+        m_run = {m_equations.data(), 0, m_packet.count, x - column - triangle.reference_x,
+                 y - row - triangle.reference_y};
         // Divided by the constant 1, the plane of 1/w shows itself.
         const AttributePlane only[2] = {constant, m_equations.front()};
         Run alone = m_run;
@@ -44,18 +49,15 @@ class LonePacket {
     [[nodiscard]] const AttributesCtx& runs() const { return m_runs; }
     Packet& packet() { return m_packet; }
     [[nodiscard]] float attribute(int k) const {
-        return m_attributes[static_cast<std::size_t>(k) * kAttributeStride];
-    }
-    void set_attribute(int k, float value) {
-        m_attributes[static_cast<std::size_t>(k) * kAttributeStride] = value;
+        return m_attributes[static_cast<std::size_t>(k * kAttributeStride + m_at)];
     }
     [[nodiscard]] int plane(int k) const {
-        return m_planes[static_cast<std::size_t>(k) * kPacketSize];
+        return m_planes[static_cast<std::size_t>(k * kPacketSize + m_at)];
     }
     [[nodiscard]] float one_over_w() const { return m_one_over_w; }
-    [[nodiscard]] std::int32_t texel() const { return m_texel[0]; }
-    [[nodiscard]] int weight_x() const { return m_weight_x[0]; }
-    [[nodiscard]] int weight_y() const { return m_weight_y[0]; }
+    [[nodiscard]] std::int32_t texel() const { return m_texel[m_at]; }
+    [[nodiscard]] int weight_x() const { return m_weight_x[m_at]; }
+    [[nodiscard]] int weight_y() const { return m_weight_y[m_at]; }
 
   private:
     AlignedVector<float> m_attributes;
@@ -63,9 +65,10 @@ class LonePacket {
     std::vector<AttributePlane> m_equations;
     Run m_run{};
     AttributesCtx m_runs{};
-    std::uint16_t m_pixel[1] = {0};
-    std::int32_t m_texel[1] = {0};
-    std::int16_t m_weight_x[1] = {0}, m_weight_y[1] = {0};
+    int m_at = 0;  ///< the traced fragment
+    std::uint16_t m_pixel[4] = {0, 1, kBlockSize, kBlockSize + 1};
+    std::int32_t m_texel[4] = {};
+    std::int16_t m_weight_x[4] = {}, m_weight_y[4] = {};
     float m_one_over_w = 0.0F;
     Packet m_packet{1,       m_pixel,    m_attributes.data(), m_planes.data(),
                     m_texel, m_weight_x, m_weight_y};
@@ -81,6 +84,17 @@ int neighbour(int at, int size, Wrap wrap) {
     return wrap == Wrap::repeat ? 0 : size - 1;
 }
 
+/// An operation in exact numbers. How much of a texture a quad covers is the machine's number: of
+/// its other fragments nothing exact is known.
+void feed_exactly(const InputOp& op, const LonePacket& packet, ExactInputs& exact) {
+    if (const auto* quad = std::get_if<QuadFootprintCtx>(&op)) {
+        const int out = quad->footprint.out;
+        exact.set_attribute(out, static_cast<double>(packet.attribute(out)));
+    } else {
+        exact.feed(op);
+    }
+}
+
 /// Runs the input operations of a shading and notes what they give.
 class InputTracer {
   public:
@@ -92,7 +106,7 @@ class InputTracer {
             const InputOp& op = m_shading.inputs[i];
             feed_input(op, m_shading.program.numbers, table_reference(), m_packet.runs(),
                        m_packet.packet());
-            m_exact.feed(op);
+            feed_exactly(op, m_packet, m_exact);
             add_unit_numbers(i, out);
             note(op, out);
         }
@@ -241,96 +255,102 @@ class InputTracer {
     LevelAddressCtx m_level{};  ///< of plain addresses the coordinates only
 };
 
-/// One fragment, followed on both kinds of numbers.
-struct TwoPackets {
-    TwoPackets(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
-               std::int32_t x, std::int32_t y)
-        : packet(shading, mesh, triangle, x, y), exact(shading, mesh, triangle, x, y) {}
-    LonePacket packet;  // points into itself: not to be moved
-    ExactInputs exact;
-};
-
-/// Serves the fetches between stages, in their order, with the operations that the renderer runs.
-/// Coordinates come decoded.
+/// Serves the fetches between stages in their order.
 class StageFetches {
   public:
-    StageFetches(const Shading& shading, std::shared_ptr<TwoPackets> fragment)
-        : m_shading(&shading), m_fragment(std::move(fragment)) {}
+    StageFetches(const Draw& draw, LonePacket& packet, ExactInputs exact)
+        : m_draw(&draw), m_exact(std::move(exact)) {
+        run_program(packet);
+    }
 
-    /// The number of the fetch's operations; -1 for a unit without a texture.
-    int next(const StageFetch& fetch) {
-        const int unit = static_cast<int>(fetch.destination) - static_cast<int>(Register::tex0);
-        return (m_shading->unit_states.textured >> unit & 1) == 0 ? -1 : m_next++;
+    /// The machine's codes: what the scalar kernels brought, since neighbours count, too.
+    [[nodiscard]] FetchCodes codes() const {
+        return [fetches = *this, next = std::size_t{0}](
+                   const StageFetch& fetch, const std::array<float, 3>& /*at*/) mutable {
+            if (!fetches.has_texture(fetch))
+                return Codes{0, 0, 0, code_of_one(fetches.program().numbers)};
+            return fetches.m_codes.at(next++);
+        };
     }
-    [[nodiscard]] const std::vector<InputOp>& ops(int fetch) const {
-        return m_shading->stage_fetches[static_cast<std::size_t>(fetch)].ops;
+
+    /// The texels of exact coordinates; the level of detail is the machine's.
+    [[nodiscard]] FetchReals exact() const {
+        return [fetches = *this, next = std::size_t{0}](const StageFetch& fetch,
+                                                        const std::array<double, 3>& at) mutable {
+            if (!fetches.has_texture(fetch)) return Reals{0.0, 0.0, 0.0, 1.0};
+            return fetches.fetch_exactly(next++, at);
+        };
     }
-    [[nodiscard]] int plane(int fetch, std::size_t c) const {
-        return m_shading->program.fetches[static_cast<std::size_t>(fetch)].out +
-               static_cast<int>(c);
-    }
-    [[nodiscard]] const Shading& shading() const { return *m_shading; }
-    [[nodiscard]] TwoPackets& fragment() const { return *m_fragment; }
 
   private:
-    const Shading* m_shading;
-    std::shared_ptr<TwoPackets> m_fragment;
-    int m_next = 0;
-};
+    [[nodiscard]] const BoundProgram& program() const { return m_draw->shading.program; }
+    [[nodiscard]] bool has_texture(const StageFetch& fetch) const {
+        const int unit = static_cast<int>(fetch.destination) - static_cast<int>(Register::tex0);
+        return (m_draw->shading.unit_states.textured >> unit & 1) != 0;
+    }
 
-FetchCodes fetch_codes(StageFetches fetches) {
-    return [fetches](const StageFetch& fetch, const std::array<float, 3>& at) mutable {
-        const NumberModel numbers = fetches.shading().program.numbers;
-        const int number = fetches.next(fetch);
-        if (number < 0) return Codes{0, 0, 0, code_of_one(numbers)};
-        LonePacket& packet = fetches.fragment().packet;
-        std::size_t coordinate = 0;
-        for (const InputOp& op : fetches.ops(number)) {
-            if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
-                packet.set_attribute(decode->attribute, at.at(coordinate++));
-            } else {
-                feed_input(op, numbers, table_reference(), packet.runs(), packet.packet());
+    /// Portion by portion, as the renderer does.
+    void run_program(LonePacket& lone) {
+        const KernelTable& kernels = table_reference();
+        Packet& packet = lone.packet();
+        load_constants(program(), packet);
+        std::size_t done = 0;
+        for (std::size_t i = 0; i < program().fetches.size(); ++i) {
+            const StageSampling& fetch = m_draw->shading.stage_fetches[i];
+            run_portions(program(), kernels, packet, done, fetch.before);
+            done = fetch.before;
+            double footprint = 0.0;
+            for (const InputOp& op : fetch.ops) {
+                feed_input(op, program().numbers, kernels, lone.runs(), packet);
+                if (const auto* quad = std::get_if<QuadFootprintCtx>(&op))
+                    footprint = static_cast<double>(lone.attribute(quad->footprint.out));
             }
+            Codes codes{};
+            for (std::size_t c = 0; c < 4; ++c)
+                codes[c] = lone.plane(program().fetches[i].out + static_cast<int>(c));
+            m_codes.push_back(codes);
+            m_footprints.push_back(footprint);
         }
-        Codes codes{};
-        for (std::size_t c = 0; c < 4; ++c) codes[c] = packet.plane(fetches.plane(number, c));
-        return codes;
-    };
-}
+    }
 
-FetchReals fetch_reals(StageFetches fetches) {
-    return [fetches](const StageFetch& fetch, const std::array<double, 3>& at) mutable {
-        const int number = fetches.next(fetch);
-        if (number < 0) return Reals{0.0, 0.0, 0.0, 1.0};
-        ExactInputs& exact = fetches.fragment().exact;
+    Reals fetch_exactly(std::size_t number, const std::array<double, 3>& at) {
         std::size_t coordinate = 0;
-        for (const InputOp& op : fetches.ops(number)) {
+        for (const InputOp& op : m_draw->shading.stage_fetches.at(number).ops) {
             if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
-                exact.set_attribute(decode->attribute, at.at(coordinate++));
+                m_exact.set_attribute(decode->attribute, at.at(coordinate++));
+            } else if (const auto* quad = std::get_if<QuadFootprintCtx>(&op)) {
+                m_exact.set_attribute(quad->footprint.out, m_footprints.at(number));
             } else {
-                exact.feed(op);
+                m_exact.feed(op);
             }
         }
         Reals reals{};
-        for (std::size_t c = 0; c < 4; ++c) reals[c] = exact.plane(fetches.plane(number, c));
+        for (std::size_t c = 0; c < 4; ++c)
+            reals[c] = m_exact.plane(program().fetches.at(number).out + static_cast<int>(c));
         return reals;
-    };
-}
+    }
+
+    const Draw* m_draw;
+    ExactInputs m_exact;
+    std::vector<Codes> m_codes;
+    std::vector<double> m_footprints;
+};
 
 }  // namespace
 
 FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
                             std::int32_t y, TracedFragment& out) {
     const Barycentrics place = barycentrics(draw.mesh(), triangle, x, y);
-    const auto fragment = std::make_shared<TwoPackets>(draw.shading, draw.mesh(), triangle, x, y);
-    LonePacket& packet = fragment->packet;
+    LonePacket packet(draw.shading, draw.mesh(), triangle, x, y);
+    ExactInputs exact(draw.shading, draw.mesh(), triangle, x, y);
     out.barycentrics = place.weight;
     out.one_over_w = number(packet.one_over_w(), place.one_over_w);
-    InputTracer tracer(draw.shading, packet, fragment->exact);
+    InputTracer tracer(draw.shading, packet, exact);
     tracer.run(out);
     FragmentInputs inputs = tracer.registers();
-    inputs.fetch = fetch_codes({draw.shading, fragment});
-    inputs.fetch_exactly = fetch_reals({draw.shading, fragment});
+    const StageFetches fetches(draw, packet, std::move(exact));
+    inputs.fetch = fetches.codes();
+    inputs.fetch_exactly = fetches.exact();
     return inputs;
 }
 
