@@ -66,9 +66,10 @@ inline TextureShader random_shader(Random& random, const Machine& machine) {
     }
     shader.units.at(static_cast<std::size_t>(at)).operation = op;
     if (op == Op::dot_product_diffuse_cube_map)
-        shader.units[3].operation = Op::dot_product_reflect_cube_map;
+        shader.units.at(static_cast<std::size_t>(++at)).operation =
+            Op::dot_product_reflect_cube_map;
     // What is left over reads one of the units before, or does as it likes.
-    for (int i = at + 2; i < kTextureShaderUnits; ++i) {
+    for (int i = at + 1; i < kTextureShaderUnits; ++i) {
         TextureUnit& u = shader.units.at(static_cast<std::size_t>(i));
         constexpr std::array kMore{Op::dependent_ar,
                                    Op::dependent_gb,

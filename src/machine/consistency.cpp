@@ -233,7 +233,7 @@ class Checker {
         if (i >= m_last || !is_reflection(operation(i + 1)))
             return fmt::format("in unit {}, expected a reflection in unit {}", i, i + 1);
         const int from = unit(i + 1).previous;
-        if (from >= i - 1 || previous_problem(i + 1, from))
+        if (from >= i - 1 || previous_problem(i + 1, from) || mapping_problem(i + 1))
             return fmt::format("needs the dot product of unit {}, which is off", i + 1);
         return std::nullopt;
     }
