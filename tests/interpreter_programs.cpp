@@ -11,6 +11,8 @@
 #include "machine/interpreter.hpp"
 #include "random_program.hpp"
 #include "shade/shading.hpp"
+#include "unit_oracle.hpp"
+#include "unit_scene.hpp"
 
 /// Random programs, bound to the kernels of each table, against the interpreter.
 namespace burnish {
@@ -121,66 +123,40 @@ TEST_P(KernelTest, BoundWideProgramsEqualTheInterpreter) {
 
 // --- fetches between stages
 
-/// A small texture of 2D or none, by chance.
+/// A small texture of any target and format, or none, by chance.
 TexturePtr random_texture(Random& random) {
+    constexpr std::array kFormats{TexelFormat::rgba8,      TexelFormat::signed_rgba8,
+                                  TexelFormat::luminance8, TexelFormat::hilo16,
+                                  TexelFormat::dsdt8,      TexelFormat::dsdt8_mag8_intensity8};
     if (random.chance(5)) return nullptr;
-    Image8 image(random.between(1, 9), random.between(1, 9));
-    for (std::uint8_t& byte : image.rgba) byte = static_cast<std::uint8_t>(random.below(256));
-    const auto wrap = [&] { return random.chance(2) ? Wrap::repeat : Wrap::clamp_to_edge; };
-    return std::make_shared<const Texture>(
-        image, Sampler{Filter::nearest, wrap(), wrap()},
-        random.chance(2) ? TexelFormat::signed_rgba8 : TexelFormat::rgba8);
+    return random_unit_texture(random, static_cast<TextureTarget>(random.below(5)),
+                               random.pick(kFormats));
 }
 
-/// The nearest texel at u of `size`, from the rules of docs/numbers.md.
-int nearest_texel(float u, int size, Wrap wrap) {
-    float f = wrap == Wrap::repeat ? u - std::floor(u) : u;
-    f = std::min(std::max(f, 0.0F), 1.0F);
-    const int texel = static_cast<int>(f * static_cast<float>(256 * size)) / 256;
-    if (texel < size) return texel;
-    return wrap == Wrap::repeat ? 0 : size - 1;
-}
-
-/// One byte as a register's code.
-int texel_code(int byte, bool is_signed, NumberModel numbers) {
-    const int value = is_signed && byte >= 128 ? byte - 256 : byte;
-    if (numbers == NumberModel::nine_bit) return is_signed ? 2 * value : value;
-    if (is_signed) return 128 * value;
-    return (256 * value + value + 2) / 4;
-}
-
-Codes nearest_fetch(const Texture& texture, const Image8& image, float u, float v,
-                    NumberModel numbers) {
-    const int x = nearest_texel(u, texture.width(), texture.sampler().wrap_s);
-    const int y = nearest_texel(v, texture.height(), texture.sampler().wrap_t);
+/// What a fetch brings, by the rules of docs/numbers.md.
+Codes nearest_fetch(const Texture& texture, const std::array<float, 3>& at, NumberModel numbers) {
+    const std::array<int, 4> texel = nearest_numbers(texture, at);
+    const TexelClass kind = format_class(texture.format());
     Codes codes{};
-    for (std::size_t c = 0; c < 4; ++c)
-        codes[c] =
-            texel_code(image.at(x, y)[c], texture.format() == TexelFormat::signed_rgba8, numbers);
+    for (std::size_t c = 0; c < 4; ++c) {
+        const bool intensity = kind == TexelClass::dsdt_mag_intensity && c == 3;
+        if (kind > TexelClass::mixed && !intensity) continue;
+        codes[c] = code_of_number(texel[c], texture.is_signed(static_cast<int>(c)), numbers);
+    }
     return codes;
 }
 
-/// What the texture was made from.
-Image8 image_of(const Texture& texture) {
-    Image8 image(texture.width(), texture.height());
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int c = 0; c < 4; ++c) {
-                const int stored = texture.texels()[y * texture.pitch() + 4 * x + c];
-                image.at(x, y)[c] = static_cast<std::uint8_t>(
-                    texture.format() == TexelFormat::signed_rgba8 ? stored ^ 0x80 : stored);
-            }
-        }
-    }
-    return image;
-}
-
 /// Every second stage fetches; coordinates are any registers.
-void add_fetches(Random& random, const Machine& machine, CombinerProgram& program) {
+void add_fetches(Random& random, const Machine& machine, const std::vector<TexturePtr>& textures,
+                 CombinerProgram& program) {
     for (GeneralStage& stage : program.stages) {
         if (random.chance(2)) continue;
         stage.fetches = random_fetches(random, machine);
-        for (StageFetch& fetch : stage.fetches) fetch.target = FetchTarget::table_2d;
+        for (StageFetch& fetch : stage.fetches) {
+            const auto unit = static_cast<std::size_t>(fetch.destination) -
+                              static_cast<std::size_t>(Register::tex0);
+            if (textures[unit]) fetch.target = table_for(textures[unit]->target());
+        }
     }
 }
 
@@ -204,22 +180,21 @@ struct FetchingProgram {
     }
 };
 
-void check_fetches(const KernelTable& table, const Machine& machine, unsigned programs) {
+void check_fetches(const KernelTable& table, const Machine& machine, unsigned usual) {
+    const unsigned programs = program_count(usual);
     AlignedVector<float> attributes(std::size_t{kMaxAttributes} * kAttributeStride);
     AlignedVector<std::int32_t> texel(kPacketSize);
     AlignedVector<std::int16_t> weights(2 * kPacketSize);
     for (unsigned seed = 0; seed < programs; ++seed) {
         Random random(seed);
         CombinerProgram program = random_program(random, machine);
-        add_fetches(random, machine, program);
         UnitStates states;
         std::vector<TexturePtr> textures;
-        std::vector<Image8> images;
         for (int unit = 0; unit < machine.texture_units; ++unit) {
             textures.push_back(random_texture(random));
-            images.push_back(textures.back() ? image_of(*textures.back()) : Image8());
             if (textures.back()) states.textured |= 1U << unit;
         }
+        add_fetches(random, machine, textures, program);
         states.enabled = states.textured & static_cast<std::uint32_t>(random.below(1 << 16));
         const int count = random.between(1, 40);
         const std::vector<RegisterFile> inputs =
@@ -235,7 +210,7 @@ void check_fetches(const KernelTable& table, const Machine& machine, unsigned pr
             const auto unit =
                 static_cast<std::size_t>(f.destination) - static_cast<std::size_t>(Register::tex0);
             if (!textures[unit]) return Codes{0, 0, 0, code_of_one(machine.numbers)};
-            return nearest_fetch(*textures[unit], images[unit], at[0], at[1], machine.numbers);
+            return nearest_fetch(*textures[unit], at, machine.numbers);
         };
         for (int i = 0; i < count; ++i) {
             const Codes want = run_combiners(program, machine, inputs[static_cast<std::size_t>(i)],

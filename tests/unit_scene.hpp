@@ -127,6 +127,23 @@ inline std::vector<TexturePtr> random_unit_textures(Random& random, const Textur
     return textures;
 }
 
+/// The fetch between stages that reads a texture.
+inline FetchTarget table_for(TextureTarget target) {
+    switch (target) {
+        case TextureTarget::one_d:
+            return FetchTarget::table_1d;
+        case TextureTarget::two_d:
+            return FetchTarget::table_2d;
+        case TextureTarget::rectangle:
+            return FetchTarget::table_rectangle;
+        case TextureTarget::cube:
+            return FetchTarget::table_cube_map;
+        case TextureTarget::three_d:
+            break;
+    }
+    return FetchTarget::table_3d;
+}
+
 inline std::array<glm::vec4, 4> random_coordinates(Random& random) {
     std::array<glm::vec4, 4> sets{};
     for (glm::vec4& uv : sets)
