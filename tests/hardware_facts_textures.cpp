@@ -215,6 +215,27 @@ TEST_F(TextureFacts, BumpEnvMapReadsBlueAndGreenAsSigned) {
     }
 }
 
+// Rectangle textures have coordinates in texels, and offsets too.
+TEST_F(TextureFacts, OffsetsOfRectangleTexturesAreTexels) {
+    const Framebuffer frame = draw(
+        texture("b", kSize, kSize,
+                [](int x, int y) {
+                    return Bytes{1, y, x, 2};
+                }) +
+            texture("t", 200, 150, texel_address,
+                    std::string(kNearest) + "target = \"rectangle\"\n"),
+        shader("texture_2d();\noffset_rectangle(tex0, 32, 0, 0, 16);\n", "\"b\", \"t\"") + kBump,
+        [](double x, double y) { return on_the_grid(x, y) + ", uv1 = [100.5, 75.25]"; });
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            // 100.5 + 32 ds / 128 and 75.25 + 16 dt / 128 in quarters and eighths of a texel.
+            const int s = floor_quotient(402 + signed_byte(x), 4);
+            const int t = floor_quotient(602 + signed_byte(y), 8);
+            ASSERT_EQ(pixel(frame, x, y), texel_address(s, t)) << x << ", " << y;
+        }
+    }
+}
+
 // The bytes are filtered as the unsigned ones that they are declared to be and read as signed only
 // then: +127/128 turns to -1 where the filtered byte passes 127.5.
 TEST_F(TextureFacts, UnsignedBumpSourcesAreReadAsSignedAfterTheFilter) {

@@ -47,6 +47,11 @@ class Consistency : public testing::Test {
         return problems(shader_of(statements));
     }
 
+    static TexturePtr cube() {
+        TextureDescription description{.target = TextureTarget::cube};
+        return std::make_shared<const Texture>(std::vector<Image8>(6, Image8(1, 1)), description);
+    }
+
     TexturePtr rgba = texture_of(TexelFormat::rgba8);
     TexturePtr signed_rgba = texture_of(TexelFormat::signed_rgba8);
     std::vector<TexturePtr> units{rgba, rgba, rgba, rgba};
@@ -151,11 +156,13 @@ TEST_F(Consistency, GroupsOfDotProductsFollowEachOther) {
     EXPECT_EQ(problems(shader),
               "3: dot_product_depth_replace in unit 3, expected dot_product in unit 2");
     // Three products, of which the first is missing.
+    units[3] = cube();
     shader.units = {};
     shader.units[1].operation = TextureOperation::pass_through;
     shader.units[2] = {.operation = TextureOperation::dot_product, .previous = 1};
     shader.units[3] = {.operation = TextureOperation::dot_product_cube_map, .previous = 1};
-    EXPECT_SAYS(problems(shader), "3: dot_product_cube_map with a 2D texture");
+    EXPECT_EQ(problems(shader),
+              "3: dot_product_cube_map in unit 3, expected dot_product in unit 1");
 }
 
 TEST_F(Consistency, ADotProductThatIsOffTakesItsGroupWithIt) {
@@ -198,6 +205,94 @@ TEST_F(Consistency, DotMappingsOfTheHardwareFitTheirTexels) {
     EXPECT_SAYS(problems(shader), "expected unsigned HILO");
     shader.units[1].dot_mapping = DotMapping::nv2a_hemisphere_gl;
     EXPECT_SAYS(problems(shader), "expected signed HILO");
+}
+
+TEST_F(Consistency, OffsetsWithScaleNeedAMagnitude) {
+    units[0] = texture_of(TexelFormat::dsdt8);
+    EXPECT_EQ(problems("texture_2d(); offset_2d(tex0, 1, 0, 0, 1);"), "");
+    EXPECT_EQ(problems("texture_2d(); offset_2d_scale(tex0, 1, 0, 0, 1, 1, 0);"),
+              "1: offset_2d_scale reads unit 0, whose texels are DSDT, expected DSDT with "
+              "magnitude");
+    for (const TexelFormat format : {TexelFormat::dsdt8_mag8, TexelFormat::dsdt8_mag8_intensity8}) {
+        units[0] = texture_of(format);
+        EXPECT_EQ(problems("texture_2d(); offset_2d_scale(tex0, 1, 0, 0, 1, 1, 0);"), "");
+    }
+    TextureShader shader = shader_of("texture_2d(); offset_2d(tex0, 1, 0, 0, 1);");
+    shader.bump_source = BumpSource::rgba8;
+    EXPECT_SAYS(problems(shader), "expected colours");
+}
+
+TEST_F(Consistency, HiloOfTheRightSign) {
+    machine = machine_profile("ideal");
+    const std::string offset = "texture_2d(); offset_hilo_2d(tex0, 1, 0, 0, 1);";
+    const std::string dependent = "texture_2d(); dependent_hilo(tex0);";
+    units[0] = texture_of(TexelFormat::hilo16);
+    EXPECT_EQ(problems(dependent), "");
+    EXPECT_EQ(problems(offset),
+              "1: offset_hilo_2d reads unit 0, whose texels are unsigned HILO, "
+              "expected signed HILO");
+    units[0] = texture_of(TexelFormat::signed_hilo8);
+    EXPECT_EQ(problems(offset), "");
+    EXPECT_EQ(problems(dependent),
+              "1: dependent_hilo reads unit 0, whose texels are signed HILO, "
+              "expected unsigned HILO");
+}
+
+TEST_F(Consistency, DotProductsReadOneSign) {
+    const std::string dots = "texture_2d(); dot_product_2d_1of2(tex0); dot_product_2d_2of2(tex0);";
+    for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::signed_rgba8,
+                                     TexelFormat::hilo16, TexelFormat::signed_hilo16}) {
+        units[0] = texture_of(format);
+        EXPECT_EQ(problems(dots), "");
+    }
+    units[0] = texture_of(TexelFormat::signed_rgb8_unsigned_alpha8);
+    EXPECT_SAYS(problems(dots),
+                "1: dot_product reads unit 0, whose texels are colours with and "
+                "without sign, expected colours of one sign or HILO; 2: ");
+    units[0] = texture_of(TexelFormat::dsdt8);
+    EXPECT_SAYS(problems(dots), "1: dot_product reads unit 0, whose texels are DSDT");
+}
+
+TEST_F(Consistency, ReflectionsReadAUnitInFrontOfTheirDotProducts) {
+    units[2] = units[3] = cube();
+    TextureShader shader = shader_of(
+        "texture_2d(); dot_product_cube_map_and_reflect_cube_map_eye_from_qs_1of3(tex0); "
+        "dot_product_cube_map_and_reflect_cube_map_eye_from_qs_2of3(tex0); "
+        "dot_product_cube_map_and_reflect_cube_map_eye_from_qs_3of3(tex0);");
+    EXPECT_EQ(problems(shader), "");
+    shader.units[3].previous = 2;  // the diffuse half has a texel
+    EXPECT_SAYS(problems(shader),
+                "3: dot_product_reflect_cube_map reads unit 2, expected one in "
+                "front of its dot products");
+}
+
+TEST_F(Consistency, TheDiffuseHalfNeedsItsReflection) {
+    units[2] = units[3] = cube();
+    TextureShader shader = shader_of(
+        "texture_2d(); dot_product_cube_map_and_reflect_cube_map_const_eye_1of3(tex0, 0, 0, 1); "
+        "dot_product_cube_map_and_reflect_cube_map_const_eye_2of3(tex0); "
+        "dot_product_cube_map_and_reflect_cube_map_const_eye_3of3(tex0);");
+    EXPECT_EQ(problems(shader), "");
+    units[3] = rgba;  // the reflection is off, its dot product is not needed less
+    EXPECT_EQ(problems(shader),
+              "3: dot_product_const_eye_reflect_cube_map with a 2D texture, "
+              "expected cube map");
+    shader.units[3] = {.operation = TextureOperation::texture_2d};
+    EXPECT_EQ(problems(shader),
+              "2: dot_product_diffuse_cube_map in unit 2, expected a reflection "
+              "in unit 3");
+}
+
+TEST_F(Consistency, TheBrdfReadsTwoUnitsOfHilo) {
+    TextureDescription volume{.target = TextureTarget::three_d};
+    units[2] = std::make_shared<const Texture>(std::vector<Image8>{Image8(1, 1)}, volume);
+    const std::string brdf = "texture_2d(); texture_2d(); texture_brdf();";
+    EXPECT_EQ(problems(brdf),
+              "2: texture_brdf reads unit 0, whose texels are unsigned colours, expected HILO");
+    units[0] = units[1] = texture_of(TexelFormat::hilo16);
+    EXPECT_EQ(problems(brdf), "");
+    units[1] = nullptr;
+    EXPECT_SAYS(problems(brdf), "2: texture_brdf in unit 2, expected HILO texels in units 0 and 1");
 }
 
 TEST_F(Consistency, MachinesWithoutTheHardwaresReadingsRefuseThem) {

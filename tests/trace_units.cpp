@@ -89,6 +89,59 @@ TEST(TraceUnits, FetchesBetweenStagesAreTracedToTheRenderersPixels) {
     }
 }
 
+/// A triangle with a mipmapped texture in unit 1, three texels a pixel, read at coordinates that
+/// come from the interpolator or, moved by nothing, from an offset.
+Scene mipmapped_triangle(const std::string& shader, const std::string& machine) {
+    Scene scene;
+    scene.width = scene.height = 40;
+    scene.machine = machine_profile(machine);
+    scene.format = PixelFormat::rgba32f;
+    Random random(1);
+    ProgramMaterial program;
+    program.texture_shader = parse_texture_shader("!!TS1.0 " + shader).program;
+    TextureDescription description{.format = TexelFormat::dsdt8};
+    program.units.push_back(
+        std::make_shared<const Texture>(std::vector<Image8>{Image8(1, 1)}, description));
+    Image8 noise(64, 64);
+    for (std::uint8_t& byte : noise.rgba) byte = static_cast<std::uint8_t>(random.below(256));
+    description.format = TexelFormat::rgba8;
+    description.box_mipmaps = true;
+    description.sampler.filter = Filter::linear_mipmap_linear;
+    program.units.push_back(
+        std::make_shared<const Texture>(std::vector<Image8>{noise}, description));
+    program.combiners = combiners_of("!!RC1.0 out.rgb = tex1; out.a = tex1;");
+    auto material = std::make_shared<Material>();
+    material->program = program;
+    RawVertices raw{.space = Space::window, .topology = Topology::triangles, .vertices = {}};
+    for (const auto& [x, y] : {std::pair{1, 2}, {37, 5}, {11, 39}}) {
+        RawVertex v{.position = {x, y, 0.5F, 1.0F}};
+        v.uv[1] = {3.0F * static_cast<float>(x) / 64.0F, static_cast<float>(y) / 64.0F, 0.0F, 1.0F};
+        raw.vertices.push_back(v);
+    }
+    scene.objects.push_back({raw, material, glm::mat4(1.0F), {}});
+    return scene;
+}
+
+// Differences within quads are the derivatives of what is linear, at the triangle's edges too.
+TEST(TraceUnits, ComputedCoordinatesTakeTheirLevelOfDetailFromTheQuad) {
+    for (const char* machine : {"nv2a", "ideal"}) {
+        const Scene plain = mipmapped_triangle("nop(); texture_2d();", machine);
+        const Scene moved =
+            mipmapped_triangle("texture_2d(); offset_2d(tex0, 1, 0, 0, 1);", machine);
+        Framebuffer one(40, 40, PixelFormat::rgba32f), other(40, 40, PixelFormat::rgba32f);
+        Renderer renderer;
+        renderer.render(plain, one);
+        renderer.render(moved, other);
+        int different = 0;
+        for (int y = 0; y < 40; ++y) {
+            for (int x = 0; x < 40; ++x)
+                different += pixel_of(one, x, y) != pixel_of(other, x, y) ? 1 : 0;
+        }
+        EXPECT_EQ(different, 0) << machine;
+        EXPECT_GT(check_pixels(moved, machine), 50);
+    }
+}
+
 /// The trace of the middle of a quad whose units have these textures of one texel each.
 TracedFragment traced(const std::string& shader, const std::vector<std::array<int, 4>>& texels,
                       const std::array<glm::vec4, 4>& uv) {

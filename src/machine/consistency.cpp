@@ -104,6 +104,9 @@ class Checker {
 
     [[nodiscard]] Problem problem(int i) const {
         if (const Problem p = texture_problem(i)) return p;
+        if (is_reflection(operation(i)) && i >= 2 && unit(i).previous >= i - 2)
+            return fmt::format("reads unit {}, expected one in front of its dot products",
+                               unit(i).previous);
         if (reads_previous(operation(i))) {
             if (const Problem p = previous_problem(i, unit(i).previous)) return p;
         }
@@ -221,9 +224,6 @@ class Checker {
             if (!m_consistent.at(index(i - k)))
                 return fmt::format("needs the dot product of unit {}, which is off", i - k);
         }
-        if (is_reflection(op) && unit(i).previous >= i - 2)
-            return fmt::format("reads unit {}, expected one in front of its dot products",
-                               unit(i).previous);
         if (op == Op::dot_product_diffuse_cube_map) return diffuse_problem(i);
         return std::nullopt;
     }
