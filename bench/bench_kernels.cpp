@@ -11,11 +11,25 @@
 #include "core/cpu.hpp"
 #include "tests/kernel_packet.hpp"
 
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
 /// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
 /// compared with the reference before anything is timed. Items are fragments, vertices for
-/// `transform` and covered pixels for `rasterize`.
+/// `transform` and covered pixels for `rasterize`; `cycles` are those of the time-stamp counter per
+/// item, which runs at the CPU's nominal clock.
 namespace burnish {
 namespace {
+
+/// 0 where there is no such counter.
+std::uint64_t cycles_so_far() {
+#if defined(__x86_64__)
+    return __rdtsc();
+#else
+    return 0;
+#endif
+}
 
 template <class Ctx>
 using PacketStage = void (*KernelTable::*)(Packet&, const Ctx&) noexcept;
@@ -28,8 +42,12 @@ void add(const std::string& name, std::int64_t items,
         const auto body = [=](benchmark::State& state) {
             const std::string text = difference(*table);
             if (!text.empty()) return state.SkipWithError(("not the reference: " + text).c_str());
+            const std::uint64_t start = cycles_so_far();
             run(*table, state);
-            state.SetItemsProcessed(state.iterations() * items);
+            const auto cycles = static_cast<double>(cycles_so_far() - start);
+            const std::int64_t done = state.iterations() * items;
+            state.SetItemsProcessed(done);
+            if (cycles > 0.0) state.counters["cycles"] = cycles / static_cast<double>(done);
         };
         benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
     }

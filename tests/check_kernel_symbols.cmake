@@ -3,11 +3,12 @@
 # An object compiled for one instruction set must offer nothing but its table and what lies in the
 # namespace that xsimd has in this object alone: any other function (a template, an inline function
 # of a header) could be the copy that the linker keeps for the whole program, and an old CPU would
-# then stop on it. Without ISA nothing at all may be visible.
+# then stop on it. Type information, which sanitizers ask for, is data. Without ISA nothing at all may
+# be visible.
 cmake_minimum_required(VERSION 3.25)
 set(accepted "^$")
 if(ISA)
-  set(accepted "^(burnish::table_${ISA}\\(\\)$|xsimd_${ISA}::)")
+  set(accepted "^(burnish::table_${ISA}\\(\\)$|xsimd_${ISA}::|typeinfo (name )?for )")
 endif()
 
 set(foreign "")

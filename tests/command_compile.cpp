@@ -72,6 +72,19 @@ TEST_F(Compile, SaysWhyAMachineCannotRunIt) {
     EXPECT_SAYS(result.out, "ideal       runs it\n");
 }
 
+/// Two stages too many for geforce256, and what is left after two of them is positive.
+TEST_F(Compile, CountsThePasses) {
+    write(path("long.rc"),
+          "!!RC1.0\n{ rgb { spare0 = tex0 * tex1; } }\n{ rgb { spare0 = spare0 * col0; } }\n"
+          "{ rgb { spare0 = spare0 * spare0; } }\nout.rgb = spare0;\n");
+    const Result result = run("compile long.rc");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_SAYS(result.out,
+                "geforce256  in 2 passes: 3 general stages, machine 'geforce256' has 2\n");
+    EXPECT_SAYS(run("compile long.rc --json").out,
+                "\"complaint\": \"3 general stages, machine 'geforce256' has 2\", \"passes\": 2}");
+}
+
 TEST_F(Compile, Json) {
     const Result result = run("compile bump.rc table.ts --json");
     EXPECT_EQ(result.code, 0) << result.err;
@@ -87,7 +100,7 @@ TEST_F(Compile, Json) {
           "\"scale\": 2", "\"g\": \"one\", \"clamp_color_sum\": false",
           "\"text\": \"!!RC1.0\\u000aconst0 = (0.25, 0, 0, 1);",
           "{\"operation\": \"dependent_gb\", \"statement\": \"dependent_gb(tex0)\"}",
-          "{\"name\": \"nv2a\", \"runs\": true, \"complaint\": null}",
+          "{\"name\": \"nv2a\", \"runs\": true, \"complaint\": null, \"passes\": 1}",
           "{\"name\": \"geforce256\", \"runs\": false, \"complaint\": \"texture unit 1: "})
         EXPECT_SAYS(result.out, part);
     EXPECT_SAYS(run("compile bump.rc --json").out, "\"texture_shader\": null");

@@ -1,4 +1,5 @@
 #include <array>
+#include <cstdlib>
 #include <sstream>
 #include <vector>
 
@@ -76,7 +77,14 @@ Machine with_choices(Random& random, Machine machine) {
     return machine;
 }
 
-void check_programs(const KernelTable& table, const Machine& profile, unsigned programs) {
+/// BURNISH_PROGRAMS asks for more than the usual number.
+unsigned program_count(unsigned usual) {
+    const char* const asked = std::getenv("BURNISH_PROGRAMS");
+    return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : usual;
+}
+
+void check_programs(const KernelTable& table, const Machine& profile, unsigned usual) {
+    const unsigned programs = program_count(usual);
     for (unsigned seed = 0; seed < programs; ++seed) {
         Random random(seed);
         const Machine machine = with_choices(random, profile);

@@ -106,7 +106,7 @@ bool check(const std::string& text) {
 
 /// BURNISH_MUTATIONS asks for more. The sanitizers are ten times slower.
 int mutation_count() {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef BURNISH_SANITIZED
     constexpr int kUsual = 10000;
 #else
     constexpr int kUsual = 100000;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <burnish/error.hpp>
+#include <burnish/multipass.hpp>
 #include <burnish/program_text.hpp>
 #include <filesystem>
 
@@ -31,6 +32,23 @@ std::string complaint(const Compiled& compiled, std::string_view profile) {
     return {};
 }
 
+/// How many passes `profile` needs; 0 where the programs cannot be split for it. Which units are
+/// enabled is the material's business: all of them are taken to deliver colours.
+int pass_count(const Compiled& compiled, std::string_view profile) {
+    const std::vector<UnitTexels> units(16, UnitTexels::unsigned_texels);
+    const Machine machine = machine_profile(profile);
+    try {
+        if (compiled.texture_shader) compiled.texture_shader->validate(machine);
+        const bool fixed = compiled.texture_shader.has_value();
+        const auto used = static_cast<std::size_t>(fixed ? kTextureShaderUnits : 16);
+        return static_cast<int>(
+            split_into_passes(compiled.combiners, machine, std::span(units).first(used), fixed)
+                .size());
+    } catch (const Error&) {
+        return 0;
+    }
+}
+
 }  // namespace
 
 std::string language_of(const CombinerProgram& program) {
@@ -54,8 +72,12 @@ void run(const CompileOptions& options) {
                       options.texture_shader.string(),
                       shader.program,
                       {}};
-    for (const std::string_view profile : machine_profile_names())
-        compiled.profiles.push_back({profile, complaint(compiled, profile)});
+    for (const std::string_view profile : machine_profile_names()) {
+        ProfileVerdict& verdict = compiled.profiles.emplace_back();
+        verdict.profile = profile;
+        verdict.complaint = complaint(compiled, profile);
+        if (!verdict.complaint.empty()) verdict.passes = pass_count(compiled, profile);
+    }
     fmt::print("{}", options.json ? compiled_json(compiled) + "\n" : compiled_text(compiled));
 }
 

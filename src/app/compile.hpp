@@ -13,6 +13,7 @@ namespace burnish::app {
 struct ProfileVerdict {
     std::string_view profile;
     std::string complaint;  ///< why the machine cannot run the programs; empty if it can
+    int passes = 1;         ///< that it takes with `multipass`; 0 where that does not help
 };
 
 struct Compiled {

@@ -98,9 +98,10 @@ std::string json_profiles(const std::vector<ProfileVerdict>& profiles) {
     std::string list;
     for (const ProfileVerdict& verdict : profiles)
         list += fmt::format(
-            "{}{{\"name\": \"{}\", \"runs\": {}, \"complaint\": {}}}", list.empty() ? "" : ", ",
-            verdict.profile, verdict.complaint.empty(),
-            verdict.complaint.empty() ? std::string("null") : json_string(verdict.complaint));
+            "{}{{\"name\": \"{}\", \"runs\": {}, \"complaint\": {}, \"passes\": {}}}",
+            list.empty() ? "" : ", ", verdict.profile, verdict.complaint.empty(),
+            verdict.complaint.empty() ? std::string("null") : json_string(verdict.complaint),
+            verdict.passes);
     return list;
 }
 

@@ -96,11 +96,16 @@ std::string units_text(const TextureShader& shader) {
     return "texture units\n" + text_table(rows, 2);
 }
 
+std::string verdict_text(const ProfileVerdict& verdict) {
+    if (verdict.complaint.empty()) return "runs it";
+    if (verdict.passes == 0) return "cannot: " + verdict.complaint;
+    return fmt::format("in {} passes: {}", verdict.passes, verdict.complaint);
+}
+
 std::string profiles_text(const std::vector<ProfileVerdict>& profiles) {
     std::vector<TableRow> rows;
     for (const ProfileVerdict& verdict : profiles)
-        rows.push_back({std::string(verdict.profile),
-                        verdict.complaint.empty() ? "runs it" : "cannot: " + verdict.complaint});
+        rows.push_back({std::string(verdict.profile), verdict_text(verdict)});
     return "machines\n" + text_table(rows, 2);
 }
 

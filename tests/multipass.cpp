@@ -1,0 +1,247 @@
+// Programs in several passes: the passes' frames and the last pass's colour, by the interpreter,
+// against the whole program on a machine that has room for it.
+#include <burnish/multipass.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <burnish/program_text.hpp>
+#include <string>
+
+#include "machine/interpreter.hpp"
+#include "tests/random_program.hpp"
+
+namespace burnish {
+namespace {
+
+constexpr auto kTexels = UnitTexels::unsigned_texels;
+
+Machine roomy() {
+    Machine machine = machine_profile("nv2a");
+    machine.general_stages = 16;
+    machine.texture_units = 16;
+    return machine;
+}
+
+Machine small(int stages, int units, bool stage_constants = true) {
+    Machine machine = machine_profile("nv2a");
+    machine.general_stages = stages;
+    machine.texture_units = units;
+    machine.stage_constants = stage_constants;
+    return machine;
+}
+
+CombinerProgram parsed(const std::string& body) {
+    const auto result = parse_combiners("!!RC1.0\n" + body);
+    EXPECT_TRUE(result.program) << (result.errors.empty() ? "" : result.errors[0].message);
+    return result.program.value_or(CombinerProgram{});
+}
+
+/// The picture of one fragment, pass by pass.
+Codes run_passes(const std::vector<ProgramPass>& passes, const Machine& machine,
+                 const RegisterFile& inputs) {
+    std::vector<Codes> frames;
+    for (const ProgramPass& pass : passes) {
+        RegisterFile file;
+        file[Register::col0] = inputs[Register::col0];
+        file[Register::col1] = inputs[Register::col1];
+        for (int i = 0; i < 16; ++i) file[tex(i)] = {0, 0, 0, 255};
+        EXPECT_LE(pass.units.size(), static_cast<std::size_t>(machine.texture_units));
+        for (std::size_t i = 0; i < pass.units.size(); ++i) {
+            const PassUnit& unit = pass.units[i];
+            if (unit.material_unit >= 0)
+                file[tex(static_cast<int>(i))] = inputs[tex(unit.material_unit)];
+            if (unit.frame >= 0)
+                file[tex(static_cast<int>(i))] = frames.at(static_cast<std::size_t>(unit.frame));
+        }
+        frames.push_back(run_combiners(pass.program, machine, file));
+        // What an 8-bit frame holds.
+        for (const int code : frames.back()) EXPECT_TRUE(code >= 0 && code <= 255) << code;
+    }
+    return frames.back();
+}
+
+RegisterFile random_file(Random& random, std::span<const UnitTexels> units) {
+    RegisterFile file;
+    for (int& code : file[Register::col0]) code = random.below(256);
+    for (int& code : file[Register::col1]) code = random.below(256);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        for (int& code : file[tex(static_cast<int>(i))]) {
+            if (units[i] == UnitTexels::unsigned_texels) code = random.below(256);
+            if (units[i] == UnitTexels::signed_texels) code = 2 * random.between(-128, 127);
+        }
+        if (units[i] == UnitTexels::none) file[tex(static_cast<int>(i))] = {0, 0, 0, 255};
+    }
+    return file;
+}
+
+void expect_same(const CombinerProgram& program, const Machine& machine,
+                 std::span<const UnitTexels> units, const std::vector<ProgramPass>& passes,
+                 Random& random) {
+    Machine room = machine;
+    room.general_stages = room.texture_units = 16;
+    room.stage_constants = true;
+    for (int i = 0; i < 20; ++i) {
+        const RegisterFile file = random_file(random, units);
+        ASSERT_EQ(run_passes(passes, machine, file), run_combiners(program, room, file));
+    }
+}
+
+const std::vector<UnitTexels> kFour(4, kTexels);
+
+TEST(Multipass, AProgramThatFitsIsOnePass) {
+    const CombinerProgram program = parsed("{ rgb { spare0 = tex0 * col0; } }\nout.rgb = spare0;");
+    const auto passes = split_into_passes(program, small(2, 2), kFour);
+    ASSERT_EQ(passes.size(), 1U);
+    EXPECT_EQ(passes[0].program.stages, program.stages);
+    EXPECT_EQ(passes[0].units[0], (PassUnit{0, -1}));
+    EXPECT_EQ(passes[0].units[1], PassUnit{});  // nothing reads it
+}
+
+/// The lobe of the paper squared twice: four stages, of which each pair leaves one number.
+TEST(Multipass, SquaresPassThroughOneFrame) {
+    const CombinerProgram program = parsed(
+        "{ rgb { spare0 = expand(tex0) . expand(col0); spare1 = expand(tex1) . expand(col0); } }\n"
+        "{ rgb { discard = spare0 * spare0; discard = spare1 * spare1; spare0 = sum(); } }\n"
+        "{ rgb { spare0 = unsigned_invert(spare0) * unsigned_invert(spare0); } }\n"
+        "{ rgb { spare0 = spare0 * spare0; } }\n"
+        "out.rgb = spare0 * tex2; out.a = unsigned_invert(zero);");
+    const auto passes = split_into_passes(program, small(2, 2), kFour);
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_EQ(passes[0].program.stages.size(), 2U);
+    EXPECT_EQ(passes[0].units, (std::vector<PassUnit>{{0, -1}, {1, -1}}));
+    // Unit 2 of the material and the frame are all that the second pass reads.
+    EXPECT_EQ(passes[1].program.stages.size(), 2U);
+    EXPECT_EQ(passes[1].units, (std::vector<PassUnit>{{-1, 0}, {2, -1}}));
+    Random random(1);
+    expect_same(program, small(2, 2), kFour, passes, random);
+}
+
+TEST(Multipass, TwoColoursTakeTwoFrames) {
+    const CombinerProgram program = parsed(
+        "{ rgb { spare0 = tex0 * col0; spare1 = tex1 * col0; } alpha { spare1 = tex0 * tex1; } }\n"
+        "{ rgb { discard = spare0 * tex0; discard = spare1 * tex1; spare0 = sum(); } }\n"
+        "{ rgb { spare0 = spare0 * spare1.a; } }\n"
+        "out.rgb = spare0; out.a = spare1.a;");
+    const auto passes = split_into_passes(program, small(1, 4), kFour);
+    EXPECT_EQ(passes.size(), 4U);  // two for stage 0
+    Random random(2);
+    expect_same(program, small(1, 4), kFour, passes, random);
+}
+
+/// Where the last cut that the machine allows would leave a sign, an earlier one may not.
+TEST(Multipass, StepsBackToACutThatHolds) {
+    const CombinerProgram program = parsed(
+        "{ rgb { spare0 = tex0 * tex1; } }\n"
+        "{ rgb { spare0 = expand(spare0) * col0; } }\n"
+        "{ rgb { spare1 = -spare0 * col0; } }\n"
+        "out.rgb = spare1;");
+    const auto passes = split_into_passes(program, small(2, 4), kFour);
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_EQ(passes[0].program.stages.size(), 1U);
+    Random random(3);
+    expect_same(program, small(2, 4), kFour, passes, random);
+}
+
+TEST(Multipass, ConstantsOfStagesBecomeConstantsOfPasses) {
+    const CombinerProgram program = parsed(
+        "{ const0 = (1, 0.5, 0, 1); rgb { spare0 = tex0 * const0; } }\n"
+        "{ const0 = (0, 0.5, 1, 1); rgb { spare0 = spare0 * const0; } }\n"
+        "out.rgb = spare0;");
+    const auto passes = split_into_passes(program, small(2, 2, false), kFour);
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_EQ(passes[0].program.const0, glm::vec4(1.0F, 0.5F, 0.0F, 1.0F));
+    EXPECT_EQ(passes[1].program.const0, glm::vec4(0.0F, 0.5F, 1.0F, 1.0F));
+    Random random(4);
+    expect_same(program, small(2, 2, false), kFour, passes, random);
+}
+
+std::string obstacle(const std::string& body, const Machine& machine,
+                     std::span<const UnitTexels> units = kFour, bool fixed = false) {
+    try {
+        split_into_passes(parsed(body), machine, units, fixed);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_program);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Multipass, ObstaclesAreNamed) {
+    const auto says = [](const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    };
+    says(
+        obstacle("{ rgb { spare0 = expand(tex0) * col0; } }\n{ rgb { spare1 = -spare0 * col0; } }\n"
+                 "out.rgb = spare1;",
+                 small(1, 4)),
+        "stage 1: spare0.rgb may be -255 / 255 and is read with its sign, which an 8-bit frame "
+        "cannot hold");
+    says(obstacle("{ alpha { spare0 = tex0 * col0; } }\n"
+                  "{ rgb { discard = tex0; discard = tex1; spare1 = mux(); } }\nout.rgb = spare1;",
+                  small(1, 4)),
+         "stage 1: spare0.a is read by mux(), where no texture can stand for it");
+    says(obstacle("{ rgb { spare0 = tex0 * col0; } }\n{ rgb { spare1 = tex1 * col0; } }\n"
+                  "out.rgb = color_sum * spare1;",
+                  small(1, 4)),
+         "spare0.rgb is read by color_sum");
+    says(obstacle("{ rgb { spare0 = tex0 * tex1; } }\n{ rgb { spare0 = spare0 * tex2; } }\n"
+                  "out.rgb = spare0 * tex3;",
+                  small(1, 2)),
+         "2 textures and 1 frames of earlier passes are read, with 2 texture units");
+    says(obstacle("{ rgb { spare0 = tex0 * tex1; } }\n{ rgb { spare0 = spare0 * tex1; } }\n"
+                  "out.rgb = spare0;",
+                  small(1, 2), std::vector<UnitTexels>(2, kTexels), true),
+         "2 textures and 1 frames");
+}
+
+/// A register that no later stage needs with its sign may hold one: the frame clamps it as the
+/// reading would have.
+TEST(Multipass, RandomProgramsGiveTheSameBits) {
+    int split = 0, passes_in_all = 0;
+    for (unsigned seed = 0; seed < 40000; ++seed) {
+        Random random(seed);
+        Machine machine = small(random.between(1, 3), random.between(1, 4), random.chance(2));
+        if (random.chance(2)) {
+            machine.product_rounding = static_cast<ProductRounding>(random.below(3));
+            machine.expand = random.chance(2) ? ExpandRule::ideal : ExpandRule::hardware;
+            machine.halving = random.chance(2) ? Halving::down : Halving::half_up;
+        }
+        Machine writer = roomy();
+        writer.general_stages = random.between(1, 6);
+        writer.texture_units = 4;
+        CombinerProgram program = random_program(random, writer);
+        // Signs are the usual obstacle.
+        for (GeneralStage& stage : program.stages) {
+            for (Portion* p : {&stage.rgb, &stage.alpha}) {
+                for (Input* input : {&p->a, &p->b, &p->c, &p->d}) {
+                    if (random.chance(3)) continue;
+                    if (input->mapping == Mapping::signed_identity)
+                        input->mapping = Mapping::unsigned_identity;
+                    if (input->mapping == Mapping::signed_negate)
+                        input->mapping = Mapping::unsigned_invert;
+                }
+            }
+        }
+        std::vector<UnitTexels> units(4);
+        for (UnitTexels& unit : units) unit = static_cast<UnitTexels>(random.below(3));
+        std::vector<ProgramPass> passes;
+        try {
+            passes = split_into_passes(program, machine, units, random.chance(4));
+        } catch (const Error&) {
+            continue;
+        }
+        if (passes.size() == 1) continue;
+        ++split;
+        passes_in_all += static_cast<int>(passes.size());
+        expect_same(program, machine, units, passes, random);
+        ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
+    }
+    EXPECT_GT(split, 500);
+    RecordProperty("split", split);
+    RecordProperty("passes", passes_in_all);
+}
+
+}  // namespace
+}  // namespace burnish
