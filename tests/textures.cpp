@@ -574,6 +574,86 @@ TEST(Storage, RefusesWhatDoesNotFit) {
     EXPECT_EQ(complaint({}, {}), "texture of 0 images, expected 1");
 }
 
+// ---- several units
+
+/// A noisy texture of 16 x 16 texels; equal sizes and samplers share their addresses.
+TexturePtr noisy(unsigned seed, const Sampler& sampler, TexelFormat format, bool mipmaps) {
+    Random random(seed);
+    Image8 image(16, 16);
+    for (std::uint8_t& byte : image.rgba) byte = static_cast<std::uint8_t>(random.below(256));
+    return make_texture({image}, {.format = format, .sampler = sampler, .box_mipmaps = mipmaps});
+}
+
+// Seven units, of which five share addresses of levels, one has its own in between and one has no
+// levels: each must give what it gives alone, and the picture must be the one of the trace.
+TEST(Units, ThatShareLevelsGiveWhatTheyGiveAlone) {
+    const Sampler trilinear = filtered(Filter::linear_mipmap_linear);
+    const Sampler biased = filtered(Filter::linear_mipmap_linear, 0.4F);
+    const std::vector<TexturePtr> textures{
+        noisy(1, trilinear, TexelFormat::rgba8, true),
+        noisy(2, trilinear, TexelFormat::signed_rgba8, true),
+        noisy(3, trilinear, TexelFormat::signed_rgb8_unsigned_alpha8, true),
+        noisy(4, filtered(Filter::linear), TexelFormat::rgba8, false),
+        noisy(5, trilinear, TexelFormat::rgba8, true),
+        noisy(6, trilinear, TexelFormat::rgba8, true),  // the fifth: a fetch of its own
+        noisy(7, biased, TexelFormat::rgba8, true),
+        noisy(8, filtered(Filter::linear), TexelFormat::rgba8, false)};
+    Corners corners = flat(-0.4F, 3.0F, 0.1F, 2.7F);
+    corners[1].w = 1.5F;
+    for (const char* machine : {"ideal", "geforce256"}) {
+        using namespace combine;
+        ProgramBuilder p;
+        for (int unit = 0; unit < static_cast<int>(textures.size()); ++unit) {
+            p.stage()
+                .rgb()
+                .ab(mul(in(unit == 0 ? Register::col0 : Register::spare0), one()))
+                .cd(mul(in(tex(unit)), one()))
+                .sum(Register::spare0)
+                .scale(Scale::half);
+        }
+        p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::spare0),
+               raw(Register::zero));
+        const auto scene_with = [&](std::vector<TexturePtr> units) {
+            Scene scene = textured_scene(nullptr, 30, 20, corners, machine);
+            scene.machine.texture_units = scene.machine.general_stages = 8;
+            auto material = std::make_shared<Material>();
+            material->program.emplace();
+            material->program->combiners = p.build();
+            material->program->units = std::move(units);
+            auto& quad = std::get<RawVertices>(scene.objects[0].geometry);
+            for (RawVertex& v : quad.vertices) v.uv.fill(v.uv[0]);
+            scene.objects[0].material = material;
+            return scene;
+        };
+        const Scene together = scene_with(textures);
+        std::vector<Scene> alone;
+        for (std::size_t unit = 0; unit < textures.size(); ++unit) {
+            std::vector<TexturePtr> units(textures.size());
+            units[unit] = textures[unit];
+            alone.push_back(scene_with(units));
+        }
+        const Framebuffer frame = draw(together);
+        for (int y = 0; y < 20; y += 3) {
+            for (int x = 0; x < 30; x += 2) {
+                const PixelTrace trace = trace_pixel(together, x, y);
+                for (int c = 0; c < 4; ++c) {
+                    const auto at = static_cast<std::size_t>(c);
+                    ASSERT_EQ(bytes_at(frame, x, y)[at], trace.stored[at]) << x << "," << y;
+                }
+                ASSERT_EQ(trace.fragment->fetches.size(), textures.size());
+                for (const TracedFetch& fetch : trace.fragment->fetches) {
+                    const auto unit = static_cast<std::size_t>(fetch.unit);
+                    const PixelTrace single = trace_pixel(alone[unit], x, y);
+                    ASSERT_EQ(fetch.codes, single.fragment->fetches.at(0).codes)
+                        << "unit " << unit << " at " << x << "," << y;
+                    const bool levels = textures[unit]->levels().size() > 1;
+                    ASSERT_EQ(fetch.further.size(), levels ? 1U : 0U);
+                }
+            }
+        }
+    }
+}
+
 // ---- every kind, every instruction set
 
 struct Kind {
