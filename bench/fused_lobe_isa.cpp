@@ -21,9 +21,13 @@ struct Addresses {
     alignas(64) std::int16_t weight_x[kLanes], weight_y[kLanes];
 
     Addresses(const float* u, const float* v, const FusedLobe& ctx) {
+        const F32 one(1.0F);
+        const F32 across(static_cast<float>(256 * ctx.width));
+        const F32 down(static_cast<float>(256 * ctx.height));
+        constexpr AddressMode kRepeat = AddressMode::repeat;
         for (int i = 0; i < kLanes; i += kLanes32) {
-            const AxisAddress x = axis_address<AddressMode::repeat, true>(load(u + i), ctx.width);
-            const AxisAddress y = axis_address<AddressMode::repeat, true>(load(v + i), ctx.height);
+            const AxisAddress x = axis_address<kRepeat, true>(load(u + i), ctx.width, one, across);
+            const AxisAddress y = axis_address<kRepeat, true>(load(v + i), ctx.height, one, down);
             store(texel + i, y.texel * I32(ctx.pitch) + (x.texel << 2));
             store_narrowed(weight_x + i, x.weight);
             store_narrowed(weight_y + i, y.weight);

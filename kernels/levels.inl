@@ -143,7 +143,7 @@ void level_of_detail(Packet& packet, const LevelOfDetailCtx& ctx) noexcept {
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes32) {
         const I32 bits = ::xsimd::bitwise_cast<I32>(min(max(load(from + i), low), high));
-        const I32 entry = I32::gather(kLog2Intervals.entry, (bits >> 15) & I32(255));
+        const I32 entry = look_up(kLog2Intervals.entry, (bits >> 15) & I32(255));
         const I32 beyond = ::xsimd::select((bits & I32(0x7fff)) < (entry & I32(0xffff)), zero, one);
         const I32 octaves = ((bits >> 23) - I32(127)) << 7;
         store_narrowed(to + i, min(max(octaves + (entry >> 16) + beyond + bias, zero), last));
@@ -239,7 +239,7 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
         const I32 half = ::xsimd::select(lambda > zero, min_half, mag_half);
         const I32 bits = ::xsimd::select(lambda > zero, min_bits, mag_bits);
         const I32 level = chosen_level(ctx.choice, lambda, last) << 2;
-        const auto of_level = [&](const std::int32_t& first) { return I32::gather(&first, level); };
+        const auto of_level = [&](const std::int32_t& first) { return look_up(&first, level); };
         F32 s = load(u + i), t = load(v + i);
         if (ctx.q >= 0) {
             s = divide(s, load(q + i));

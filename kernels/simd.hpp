@@ -171,6 +171,10 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(2)), pair(3), 1);
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
+/// Entries of a short table. xsimd 8.1 has no gather of its own for AVX-512.
+inline I32 look_up(const std::int32_t* table, I32 index) {
+    return _mm512_i32gather_epi32(index, table, 4);
+}
 inline I16 broadcast_lane(const void* p) {
     return _mm512_broadcast_i32x4(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
@@ -249,6 +253,9 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     };
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(1), 1);
 }
+inline I32 look_up(const std::int32_t* table, I32 index) {
+    return _mm256_i32gather_epi32(table, index, 4);
+}
 inline I16 broadcast_lane(const void* p) {
     return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
@@ -325,6 +332,9 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
             _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
     };
     return pair(0);
+}
+inline I32 look_up(const std::int32_t* table, I32 index) {
+    return I32::gather(table, index);
 }
 inline I16 broadcast_lane(const void* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p));
@@ -409,6 +419,9 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
 }
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     return vreinterpretq_s16_u8(vcombine_u8(vld1_u8(base + offset[0]), vld1_u8(base + offset[1])));
+}
+inline I32 look_up(const std::int32_t* table, I32 index) {
+    return I32::gather(table, index);
 }
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));

@@ -57,24 +57,30 @@ AddressCtx random_address(Random& random) {
     ctx.q = random.chance(2) ? 2 : -1;
     ctx.width = random.pick(kSides);
     ctx.height = random.pick(kSides);
-    ctx.pitch = 4 * (ctx.width + 1) + 4 * random.below(33);
-    ctx.mode_s = random.chance(2) ? AddressMode::repeat : AddressMode::clamp_to_edge;
-    ctx.mode_t = random.chance(2) ? AddressMode::repeat : AddressMode::clamp_to_edge;
+    ctx.pitch = 4 * (ctx.width + 3) + 4 * random.below(33);
+    constexpr std::array kModes{AddressMode::clamp_to_edge, AddressMode::clamp_to_border,
+                                AddressMode::repeat, AddressMode::mirrored_repeat};
+    ctx.rectangle = static_cast<std::uint8_t>(random.chance(6) ? 1 : 0);
+    for (AddressMode* mode : {&ctx.mode_s, &ctx.mode_t})
+        *mode = kModes[static_cast<std::size_t>(random.below(ctx.rectangle != 0 ? 2 : 4))];
     ctx.linear = static_cast<std::uint8_t>(random.below(2));
     if (random.chance(8)) ctx.v = ctx.u;
     return ctx;
 }
 
-/// Every address up to fragment `end` is a texel with a right neighbour; every weight has 8 bits.
+/// Every address up to fragment `end` is a texel, or one of the border, with a right neighbour in
+/// its row; every weight has 8 bits.
 void expect_inside(PacketMemory& packet, int end, const AddressCtx& ctx, const std::string& name) {
+    const int left = ctx.mode_s == AddressMode::clamp_to_border ? 1 : 0;
+    const int above = ctx.mode_t == AddressMode::clamp_to_border ? 1 : 0;
     for (int i = 0; i < end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        const std::int32_t offset = packet.texel[at];
+        const std::int32_t offset = packet.texel[at] + above * ctx.pitch + 4 * left;
         {
-            ASSERT_TRUE(offset >= 0 && offset / ctx.pitch < ctx.height &&
-                        offset % ctx.pitch <= 4 * (ctx.width - 1) && offset % 4 == 0)
-                << name << ", fragment " << i << ": offset " << offset << " in " << ctx.width
-                << " x " << ctx.height << ", pitch " << ctx.pitch;
+            ASSERT_TRUE(offset >= 0 && offset / ctx.pitch < ctx.height + 2 * above &&
+                        offset % ctx.pitch <= 4 * (ctx.width - 1 + 2 * left) && offset % 4 == 0)
+                << name << ", fragment " << i << ": offset " << packet.texel[at] << " in "
+                << ctx.width << " x " << ctx.height << ", pitch " << ctx.pitch;
         }
         for (const std::int16_t weight : {packet.weight_x[at], packet.weight_y[at]})
             ASSERT_TRUE(weight >= 0 && weight <= 255)
@@ -218,13 +224,13 @@ TEST_P(KernelTest, NineBitFetchOfEveryLerp) {
 }
 
 TEST_P(KernelTest, NineBitFetchOfSignedTexels) {
-    check_weights(table(), &KernelTable::fetch_nine_bit, 1);
-    check_every_lerp(table(), &KernelTable::fetch_nine_bit, 1);
+    check_weights(table(), &KernelTable::fetch_nine_bit, FetchCtx::kAllSigned);
+    check_every_lerp(table(), &KernelTable::fetch_nine_bit, FetchCtx::kAllSigned);
 }
 
 TEST_P(KernelTest, WideFetchOfSignedTexels) {
-    check_weights(table(), &KernelTable::fetch_wide, 1);
-    check_every_lerp(table(), &KernelTable::fetch_wide, 1);
+    check_weights(table(), &KernelTable::fetch_wide, FetchCtx::kAllSigned);
+    check_every_lerp(table(), &KernelTable::fetch_wide, FetchCtx::kAllSigned);
 }
 
 TEST_P(KernelTest, WideFetchOfEveryLerp) {
@@ -255,7 +261,7 @@ void check_random_fetch(const KernelTable& table, FetchStage stage) {
         for (int k = 0; k < ctx.count; ++k) {  // overlapping textures are textures, too
             ctx.texels[k] = texels.data() + 4 * k;
             ctx.plane[k] = kTexelPlane - 5 * k;
-            ctx.is_signed[k] = static_cast<std::uint8_t>(random.chance(3) ? 1 : 0);
+            ctx.is_signed[k] = static_cast<std::uint8_t>(random.pick(std::array{0, 15, 3, 8, 7}));
             for (int c = 0; c < 4; ++c) written.planes.push_back(ctx.plane[k] + c);
         }
         ASSERT_EQ(stage_difference(table, stage, packet, ctx, written), "")

@@ -88,7 +88,7 @@ Sampler read_sampler(const Section& section, TextureTarget target) {
     if (target == TextureTarget::rectangle) sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     sampler.filter = section.choice<Filter>("filter", kFilters).value_or(sampler.filter);
     sampler.mag_filter = section.choice<Filter>("mag_filter", kMagFilters);
-    sampler.lod_bias = section.number("lod_bias", {-16.0, 15.99}).value_or(0.0F);
+    sampler.lod_bias = section.number("lod_bias", {-16.0, 15.99609375}).value_or(0.0F);
     if (const auto border = section.vec4("border_color", {-1.0, 1.0}))
         sampler.border = {border->r, border->g, border->b, border->a};
     if (target == TextureTarget::cube && section.has("wrap"))

@@ -53,6 +53,12 @@ bool same(const AddressCtx& a, const AddressCtx& b) {
            a.linear == b.linear && a.rectangle == b.rectangle;
 }
 
+void add_texture(FetchCtx& fetch, const Texture& texture, int plane) {
+    fetch.texels[fetch.count] = texture.texels();
+    fetch.is_signed[fetch.count] = signed_channels(texture);
+    fetch.plane[fetch.count++] = plane;
+}
+
 void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, SamplePlan& plan,
                 std::vector<InputOp>& ops) {
     const Sampler& sampler = texture.sampler();
@@ -67,17 +73,31 @@ void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, 
         mode_of(sampler.wrap_t),
         static_cast<std::uint8_t>(is_linear_within(sampler.filter) ? 1 : 0),
         static_cast<std::uint8_t>(texture.target() == TextureTarget::rectangle ? 1 : 0)};
-    const bool shares = plan.last && same(*plan.last, address);
+    const bool shares = plan.last && at.interpolated && same(*plan.last, address);
     if (!shares) ops.emplace_back(address);
-    plan.last = address;
+    plan.last.reset();
+    if (at.interpolated) plan.last = address;
     auto* fetch = shares ? std::get_if<FetchCtx>(&ops.back()) : nullptr;
     if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
         ops.emplace_back(FetchCtx{{}, {}, {}, 0, texture.pitch()});
         fetch = &std::get<FetchCtx>(ops.back());
     }
-    fetch->texels[fetch->count] = texture.texels();
-    fetch->is_signed[fetch->count] = signed_channels(texture);
-    fetch->plane[fetch->count++] = plane;
+    add_texture(*fetch, texture, plane);
+}
+
+bool same(const SampleCoordinates& a, const SampleCoordinates& b) {
+    return a.s == b.s && a.t == b.t && a.r == b.r && a.q == b.q && a.interpolated == b.interpolated;
+}
+
+/// Of two textures of one target at the same coordinates.
+bool same(const LevelAddressCtx& a, const LevelAddressCtx& b) {
+    const auto same_level = [](const LevelAddressCtx::Level& x, const LevelAddressCtx::Level& y) {
+        return x.width == y.width && x.height == y.height && x.offset == y.offset;
+    };
+    return a.mode_s == b.mode_s && a.mode_t == b.mode_t && a.mag_linear == b.mag_linear &&
+           a.min_linear == b.min_linear && a.choice == b.choice && a.rectangle == b.rectangle &&
+           a.pitch == b.pitch && a.layer_bytes == b.layer_bytes && a.level_count == b.level_count &&
+           std::equal(a.levels, a.levels + a.level_count, b.levels, same_level);
 }
 
 /// A sample with levels, faces, slices or words, step by step.
@@ -109,33 +129,73 @@ class LevelPlanner {
     }
 
     void plan(const SampleTarget& target) {
-        m_plan.last.reset();
         m_plan.uses_planes = true;
+        m_address.choice = takes_nearest_level(m_texture) ? LevelChoice::nearest
+                           : blends_levels(m_texture)     ? LevelChoice::floor
+                                                          : LevelChoice::base;
+        if (m_plan.levels && joins(*m_plan.levels)) {
+            join(*m_plan.levels, target.registers);
+            return;
+        }
+        m_plan.last.reset();
+        m_plan.levels.reset();
         if (needs_level_of_detail(m_texture)) plan_level_of_detail();
         if (m_texture.target() == TextureTarget::cube) plan_face();
         const bool hilo = is_hilo(m_texture.format());
         const int out = hilo ? scratch(kFirst) : target.registers;
-        if (takes_nearest_level(m_texture)) {
-            plan_level(LevelChoice::nearest, out);
-        } else if (blends_levels(m_texture)) {
-            plan_level(LevelChoice::floor, out);
-            plan_level(LevelChoice::ceiling, scratch(kSecond));
+        const LevelAddressCtx first = m_address;
+        plan_level(out);
+        const std::size_t fetch = m_ops.size() - 1;
+        std::optional<std::size_t> ceiling;
+        if (blends_levels(m_texture)) {
+            m_address.choice = LevelChoice::ceiling;
+            plan_level(scratch(kSecond));
+            ceiling = m_ops.size() - 1;
             plan_blend(out, scratch(kSecond), m_address.lambda);
-        } else {
-            plan_level(LevelChoice::base, out);
         }
         if (hilo) {
             m_ops.emplace_back(HiloCtx{out, target.values,
                                        static_cast<std::uint8_t>(m_texture.is_signed(0) ? 1 : 0)});
         }
+        if (may_share()) m_plan.levels = SharedLevels{first, m_at, bias(), fetch, ceiling};
     }
 
   private:
     // Scratch register planes.
     static constexpr int kFace = 0, kLambda = 1, kSliceWeight = 2, kFirst = 3, kSecond = 7,
-                         kBehind = 11;
+                         kBehind = 23;
     // Scratch attribute planes.
     static constexpr int kU = 0, kV = 1, kFootprint = 2;
+
+    /// Planes of a dependent fetch may be others' later.
+    [[nodiscard]] bool may_share() const {
+        return m_at.interpolated && m_texture.target() != TextureTarget::three_d &&
+               !has_words(m_texture.format());
+    }
+
+    [[nodiscard]] bool joins(const SharedLevels& shared) const {
+        const bool cube = shared.address.face >= 0;
+        return may_share() && (m_texture.target() == TextureTarget::cube) == cube &&
+               same(shared.coordinates, m_at) && same(shared.address, m_address) &&
+               shared.bias == bias() &&
+               std::get<FetchCtx>(m_ops[shared.fetch]).count < FetchCtx::kMaxTextures;
+    }
+
+    /// The fetches of `shared` take one more texture each. Its weights are still in place: samples
+    /// with levels that do not join end the sharing.
+    void join(const SharedLevels& shared, int out) {
+        auto& fetch = std::get<FetchCtx>(m_ops[shared.fetch]);
+        const int second = scratch(kSecond + 4 * fetch.count);
+        add_texture(fetch, m_texture, out);
+        if (!shared.ceiling) return;
+        add_texture(std::get<FetchCtx>(m_ops[*shared.ceiling]), m_texture, second);
+        plan_blend(out, second, shared.address.lambda);
+    }
+
+    /// 1/256.
+    [[nodiscard]] std::int32_t bias() const {
+        return static_cast<std::int32_t>(std::floor(256.0F * m_texture.sampler().lod_bias + 0.5F));
+    }
 
     [[nodiscard]] int scratch(int plane) const { return m_plan.planes + plane; }
     [[nodiscard]] int scratch_attribute(int plane) const { return m_plan.attributes + plane; }
@@ -172,16 +232,13 @@ class LevelPlanner {
         m_address.lambda = scratch(kLambda);
         const bool levels = blends_levels(m_texture) || takes_nearest_level(m_texture);
         // With one level only, lambda says whether texels are smaller than pixels.
-        m_ops.emplace_back(LevelOfDetailCtx{
-            footprint.out, m_address.lambda,
-            static_cast<std::int32_t>(std::floor(256.0F * m_texture.sampler().lod_bias + 0.5F)),
-            levels ? 256 * (m_address.level_count - 1) : 1});
+        m_ops.emplace_back(LevelOfDetailCtx{footprint.out, m_address.lambda, bias(),
+                                            levels ? 256 * (m_address.level_count - 1) : 1});
     }
 
     /// Four or two planes from `out` on, from one level.
-    void plan_level(LevelChoice choice, int out) {
+    void plan_level(int out) {
         const bool linear = m_address.mag_linear != 0 || m_address.min_linear != 0;
-        m_address.choice = choice;
         m_address.behind = 0;
         m_address.slice_weight = m_address.r >= 0 && linear ? scratch(kSliceWeight) : -1;
         m_ops.emplace_back(m_address);
@@ -199,8 +256,9 @@ class LevelPlanner {
         } else if (has_words(m_texture.format())) {
             m_ops.emplace_back(FetchWordsCtx{m_texture.texels(), out, m_texture.pitch()});
         } else {
-            m_ops.emplace_back(FetchCtx{
-                {m_texture.texels()}, {out}, {signed_channels(m_texture)}, 1, m_texture.pitch()});
+            FetchCtx fetch{{}, {}, {}, 0, m_texture.pitch()};
+            add_texture(fetch, m_texture, out);
+            m_ops.emplace_back(fetch);
         }
     }
 

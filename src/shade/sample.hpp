@@ -2,6 +2,8 @@
 
 #include <burnish/machine.hpp>
 #include <burnish/texture.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,26 +28,36 @@ struct SampleTarget {
 
 /// Scratch planes of any one sample.
 inline constexpr int kSampleAttributes = 3;
-inline constexpr int kSamplePlanes = 15;
+inline constexpr int kSamplePlanes = 27;
 
-/// What samples of one shading share.
+/// A sample with levels that others may join: what their addresses have in common, and which
+/// operations fetch for them.
+struct SharedLevels {
+    LevelAddressCtx address;
+    SampleCoordinates coordinates;
+    std::int32_t bias;                   ///< of the level of detail, 1/256
+    std::size_t fetch;                   ///< operation with the first level's texels
+    std::optional<std::size_t> ceiling;  ///< with those of the level that is blended with it
+};
+
+/// What samples of one shading share. All of them go to one list of operations.
 struct SamplePlan {
     NumberModel numbers;
     int attributes;            ///< the first of kSampleAttributes attribute planes
     int planes;                ///< the first of kSamplePlanes register planes
     bool uses_planes = false;  ///< set when one was needed
-    /// What the packet's texel addresses are for, so that samples in a row may share them.
+    /// What the packet's texel addresses are for, if they are of interpolated coordinates.
     std::optional<AddressCtx> last{};
+    std::optional<SharedLevels> levels{};  ///< the last sample with levels, if others may join it
 };
 
 /// Whether the texture's filter looks at the level of detail.
 [[nodiscard]] bool needs_level_of_detail(const Texture& texture);
 
-/// Operations that sample a texture, added to `ops`. Samples in a row with the same coordinates,
-/// size and sampler share one address and up to four textures a fetch, if nothing but mip levels,
-/// faces, slices and words comes between.
-/// Throws Error{bad_program} for a texture of more coordinates than there are and for rgba16 in
-/// nine bits.
+/// Operations that sample a texture, added to `ops`. Samples in a row with the same interpolated
+/// coordinates, sizes and sampler share addresses, levels of detail and up to four textures a
+/// fetch; of 3D textures and words each is alone. Throws Error{bad_program} for a texture of more
+/// coordinates than there are and for rgba16 in nine bits.
 void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
                  const SampleTarget& target, SamplePlan& plan, std::vector<InputOp>& ops);
 

@@ -1,6 +1,7 @@
 #include "trace/fragment.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -177,7 +178,7 @@ class InputTracer {
         } else if (const auto* words = std::get_if<FetchWordsCtx>(&op)) {
             add_fetch(texture_at(m_shading, words->texels), words->plane, out);
         } else if (const auto* blend = std::get_if<BlendLevelsCtx>(&op)) {
-            if (unit_of_plane(blend->out)) set_color(blend->out, out.fetches.back());
+            add_blend(*blend, out);
         }
     }
 
@@ -198,11 +199,11 @@ class InputTracer {
         }
     }
 
-    void add_fetch(const Texture& texture, int plane, TracedFragment& out) const {
+    void add_fetch(const Texture& texture, int plane, TracedFragment& out) {
         const TracedTaps taps = taps_of(texture);
         const std::optional<int> unit = unit_of_plane(plane);
-        if (!unit) {  // of a level or slice that is blended with those before
-            out.fetches.back().further.push_back(taps);
+        if (!unit) {  // of a level or slice that is to be blended with others
+            m_scratch[plane] = {taps};
             return;
         }
         TracedFetch fetch;
@@ -221,6 +222,16 @@ class InputTracer {
         }
         set_color(plane, fetch);
         out.fetches.push_back(std::move(fetch));
+    }
+
+    void add_blend(const BlendLevelsCtx& ctx, TracedFragment& out) {
+        const std::optional<int> unit = unit_of_plane(ctx.out);
+        const auto fetch = std::find_if(out.fetches.begin(), out.fetches.end(),
+                                        [&](const TracedFetch& f) { return unit == f.unit; });
+        std::vector<TracedTaps>& to = unit ? fetch->further : m_scratch[ctx.out];
+        const std::vector<TracedTaps>& from = m_scratch[ctx.b];
+        to.insert(to.end(), from.begin(), from.end());
+        if (unit) set_color(ctx.out, *fetch);
     }
 
     [[nodiscard]] TracedTaps taps_of(const Texture& texture) const {
@@ -252,7 +263,8 @@ class InputTracer {
     const Shading& m_shading;
     LonePacket& m_packet;
     ExactInputs& m_exact;
-    LevelAddressCtx m_level{};  ///< of plain addresses the coordinates only
+    std::map<int, std::vector<TracedTaps>> m_scratch;  ///< what scratch planes were made from
+    LevelAddressCtx m_level{};                         ///< of plain addresses the coordinates only
 };
 
 /// Serves the fetches between stages in their order.
