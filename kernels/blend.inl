@@ -30,22 +30,30 @@ struct BlendRows {
     int source[4], destination[4];
 };
 
-/// The first `used` pixels of fragments `pixels`, in the order of put_pixels; the others keep what
-/// was there.
-inline void get_pixels(const std::uint32_t* tile, const std::uint16_t* pixels, int used,
-                       Pixels8& to) {
-    for (int part = 0; part < used; part += 8) {
-        std::int16_t *low = to.half[0] + part, *high = to.half[1] + part;
-        if (part + 8 <= used && are_consecutive(pixels + part)) {
-            __builtin_memcpy(low, tile + pixels[part], 16);
-            __builtin_memcpy(high, tile + pixels[part] + 4, 16);
-            continue;
-        }
-        const int rest = used - part < 8 ? used - part : 8;
-        for (int k = 0; k < rest; ++k) {
-            __builtin_memcpy((k < 4 ? low : high) + k % 4 * 2, tile + pixels[part + k], 4);
-        }
+/// Pixels of kLanes fragments as 32-bit lanes: the first four of each eight, and the others.
+struct PixelLanes {
+    I32 low, high;
+};
+
+/// Of the first `used` fragments; the others are zeros.
+inline PixelLanes get_pixels(const std::uint32_t* tile, const std::uint16_t* pixels, int used) {
+    const auto lanes = [](I16 low, I16 high) {
+        return PixelLanes{::xsimd::bitwise_cast<I32>(low), ::xsimd::bitwise_cast<I32>(high)};
+    };
+    const void *low[kParts], *high[kParts];
+    bool whole = used == kLanes;
+    for (int part = 0; part < kParts && whole; ++part) {
+        whole = are_consecutive(pixels + 8 * part);
+        low[part] = tile + pixels[8 * part];
+        high[part] = tile + pixels[8 * part] + 4;
     }
+    if (whole) return lanes(load_lanes(low), load_lanes(high));
+    Pixels8 scattered{};
+    for (int k = 0; k < used; ++k) {
+        std::int16_t* const half = scattered.half[k / 4 % 2] + k / 8 * 8;
+        __builtin_memcpy(half + k % 4 * 2, tile + pixels[k], 4);
+    }
+    return lanes(load(scattered.half[0]), load(scattered.half[1]));
 }
 
 /// Bytes in 16-bit lanes. Products are 0 .. 65025 and rounded as the final combiner's are; a sum of
@@ -78,12 +86,9 @@ void blend_rgba8(const Packet& packet, const BlendCtx& ctx) {
     const std::int16_t* plane[4];
     for (int c = 0; c < 4; ++c) plane[c] = packet.planes + ctx.plane[c] * kPacketSize;
     auto* const tile = static_cast<std::uint32_t*>(ctx.tile);
-    Pixels8 pixels{};
     for (int i = 0; i < packet.count; i += kLanes) {
         const int used = packet.count - i < kLanes ? packet.count - i : kLanes;
-        get_pixels(tile, packet.pixels + i, used, pixels);
-        const I32 low = ::xsimd::bitwise_cast<I32>(load(pixels.half[0])),
-                  high = ::xsimd::bitwise_cast<I32>(load(pixels.half[1]));
+        const auto [low, high] = get_pixels(tile, packet.pixels + i, used);
         const I16 old_rg = narrow((low << 16) >> 16, (high << 16) >> 16),
                   old_ba = narrow(low >> 16, high >> 16);
         const I16 d[4] = {old_rg & byte, shift_right_logical(old_rg, 8), old_ba & byte,
@@ -99,6 +104,7 @@ void blend_rgba8(const Packet& packet, const BlendCtx& ctx) {
                                       load(value[rows.destination[c]]) ^ turn_destination);
         }
         const I16 rg = out[0] | (out[1] << 8), ba = out[2] | (out[3] << 8);
+        Pixels8 pixels;
         store(pixels.half[0], zip_lo16(rg, ba));
         store(pixels.half[1], zip_hi16(rg, ba));
         put_pixels(pixels, packet.pixels + i, used, tile);
@@ -108,17 +114,24 @@ void blend_rgba8(const Packet& packet, const BlendCtx& ctx) {
 /// Channels of the wider frames, one at a time.
 struct BlendWords {
     using Channel = std::uint16_t;
-    using Value = std::int64_t;
+    using Value = std::uint32_t;
     static constexpr Value kOne = 65535;
     template <class Model>
     static Value source(std::int16_t v) {
         return Model::to_u16(v);
     }
     static Value constant(float x) { return static_cast<Value>(x * 65535.0F + 0.5F); }
-    /// To nearest; 65535 is odd, so that there are no ties.
-    static Value result(Value p) {
-        const Value q = p > 0 ? (p + kOne / 2) / kOne : 0;
-        return q < kOne ? q : kOne;
+    static Value add(Value a, Value b) {
+        const Value rest = kOne * kOne - a;
+        return rounded(a + (b < rest ? b : rest));
+    }
+    static Value subtract(Value a, Value b) { return rounded(a > b ? a - b : 0); }
+    /// p / 65535 to nearest, p up to 65535^2. With p = 65535 q + r, |r| <= 32767, the upper half of
+    /// t = p + 32768 = 65536 q - q + r + 32768 is q or q - 1, so that t plus it is 65536 q and
+    /// something within 0 .. 65535.
+    static Value rounded(Value p) {
+        const Value t = p + 32768;
+        return (t + (t >> 16)) >> 16;
     }
 };
 struct BlendFloats {
@@ -130,7 +143,9 @@ struct BlendFloats {
         return Model::to_float(v);
     }
     static Value constant(float x) { return x; }
-    static Value result(Value p) {
+    static Value add(Value a, Value b) { return clamped(a + b); }
+    static Value subtract(Value a, Value b) { return clamped(a - b); }
+    static Value clamped(Value p) {
         const Value q = p > 0.0F ? p : 0.0F;
         return q < 1.0F ? q : 1.0F;
     }
@@ -140,11 +155,11 @@ template <class Frame, BlendSum Sum>
 typename Frame::Value blend_channel(typename Frame::Value s, typename Frame::Value fs,
                                     typename Frame::Value d, typename Frame::Value fd) {
     if constexpr (Sum == BlendSum::add) {
-        return Frame::result(s * fs + d * fd);
+        return Frame::add(s * fs, d * fd);
     } else if constexpr (Sum == BlendSum::subtract) {
-        return Frame::result(s * fs - d * fd);
+        return Frame::subtract(s * fs, d * fd);
     } else if constexpr (Sum == BlendSum::reverse_subtract) {
-        return Frame::result(d * fd - s * fs);
+        return Frame::subtract(d * fd, s * fs);
     } else if constexpr (Sum == BlendSum::min) {
         return s < d ? s : d;
     } else {
@@ -152,28 +167,46 @@ typename Frame::Value blend_channel(typename Frame::Value s, typename Frame::Val
     }
 }
 
+/// A group of fragments at a time, so that the arithmetic runs over rows.
 template <class Model, class Frame, BlendSum Sum>
 void blend_channels(const Packet& packet, const BlendCtx& ctx) {
     using Value = typename Frame::Value;
     using Channel = typename Frame::Channel;
+    constexpr int kGroup = kFragmentGroup;
     const BlendRows rows(ctx);
-    const bool invert_source = ctx.source.inverted != 0,
-               invert_destination = ctx.destination.inverted != 0;
-    Value value[kBlendRows] = {};
-    for (int c = 0; c < 4; ++c) value[kConstantRow + c] = Frame::constant(ctx.constant[c]);
-    const std::int16_t* plane[4];
-    for (int c = 0; c < 4; ++c) plane[c] = packet.planes + ctx.plane[c] * kPacketSize;
-    for (int i = 0; i < packet.count; ++i) {
-        Channel* const pixel = static_cast<Channel*>(ctx.tile) + packet.pixels[i] * std::size_t{4};
+    alignas(64) Value value[kBlendRows][kGroup] = {};
+    alignas(64) Value factor[2][kGroup], out[4][kGroup];
+    for (int c = 0; c < 4; ++c) {
+        for (Value& x : value[kConstantRow + c]) x = Frame::constant(ctx.constant[c]);
+    }
+    const auto set_factor = [&](Value* to, int row, bool inverted) {
+        const Value* const from = value[row];
+        for (int i = 0; i < kGroup; ++i) to[i] = inverted ? Frame::kOne - from[i] : from[i];
+    };
+    auto* const tile = static_cast<Channel*>(ctx.tile);
+    for (int first = 0; first < packet.count; first += kGroup) {
+        const int used = packet.count - first < kGroup ? packet.count - first : kGroup;
+        const std::uint16_t* const pixels = packet.pixels + first;
         for (int c = 0; c < 4; ++c) {
-            value[kSourceRow + c] = Frame::template source<Model>(plane[c][i]);
-            value[kDestinationRow + c] = static_cast<Value>(pixel[c]);
+            const std::int16_t* const plane = packet.planes + ctx.plane[c] * kPacketSize + first;
+            Value* const source = value[kSourceRow + c];
+            for (int i = 0; i < kGroup; ++i) source[i] = Frame::template source<Model>(plane[i]);
+            Value* const destination = value[kDestinationRow + c];
+            for (int i = 0; i < used; ++i) {
+                destination[i] = static_cast<Value>(tile[pixels[i] * std::size_t{4} + c]);
+            }
         }
         for (int c = 0; c < 4; ++c) {
-            const Value fs = value[rows.source[c]], fd = value[rows.destination[c]];
-            pixel[c] = static_cast<Channel>(blend_channel<Frame, Sum>(
-                value[kSourceRow + c], invert_source ? Frame::kOne - fs : fs,
-                value[kDestinationRow + c], invert_destination ? Frame::kOne - fd : fd));
+            set_factor(factor[0], rows.source[c], ctx.source.inverted != 0);
+            set_factor(factor[1], rows.destination[c], ctx.destination.inverted != 0);
+            const Value *const s = value[kSourceRow + c], *const d = value[kDestinationRow + c];
+            for (int i = 0; i < kGroup; ++i) {
+                out[c][i] = blend_channel<Frame, Sum>(s[i], factor[0][i], d[i], factor[1][i]);
+            }
+        }
+        for (int i = 0; i < used; ++i) {
+            Channel* const pixel = tile + pixels[i] * std::size_t{4};
+            for (int c = 0; c < 4; ++c) pixel[c] = static_cast<Channel>(out[c][i]);
         }
     }
 }

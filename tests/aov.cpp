@@ -172,7 +172,7 @@ TEST(AovTest, VectorsOfABallAreUnitLengthAndPointOutwards) {
             ASSERT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1.0F, 1e-5F);
             ASSERT_NEAR(t[0] * t[0] + t[1] * t[1] + t[2] * t[2], 1.0F, 1e-5F);
             ASSERT_GT(n[2], -0.3F) << "what faces away is hidden";
-            if (n[0] > 0.1F) ASSERT_GE(x, 32);
+            ASSERT_TRUE(n[0] <= 0.1F || x >= 32) << "right is right";
         }
     }
 }

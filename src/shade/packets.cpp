@@ -133,7 +133,7 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
     if (m_packet.count == 0) return;
     const Shading& shading = *m_draw.shading;
     const FragmentOutput& output = *m_draw.output;
-    if (m_draw.shown == nullptr || output.late_depth) shade_colors(kernels);
+    if (m_draw.shown == nullptr || output.late_depth) shade_colors(shading, kernels);
     if (m_copied) {
         test_fragments(shading, output, kernels, m_depth_runs.data(),
                        static_cast<int>(m_depth_runs.size()), m_tile.output, m_stored.data(),
@@ -142,9 +142,7 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
     if (m_draw.shown != nullptr) {
         show_values(kernels);
     } else {
-        if (m_copied) m_packet.pixels = m_stored.data();
-        write_pixels(shading.program.result, shading.program.numbers, output.blend, kernels,
-                     m_tile.output, m_packet);
+        write_colors(shading, output.blend, kernels);
     }
     m_shaded += static_cast<std::uint64_t>(m_packet.count);
     m_packet.pixels += m_packet.count;
@@ -155,8 +153,7 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
     m_pending.blocks = 0;
 }
 
-void PacketShader::shade_colors(const KernelTable& kernels) {
-    const Shading& shading = *m_draw.shading;
+void PacketShader::shade_colors(const Shading& shading, const KernelTable& kernels) {
     const auto planes = static_cast<std::size_t>(shading.program.plane_count) * kPacketSize;
     if (m_planes.size() < planes) {
         m_planes.resize(planes);
@@ -168,6 +165,13 @@ void PacketShader::shade_colors(const KernelTable& kernels) {
     const AttributesCtx runs{m_runs.data(), static_cast<int>(m_runs.size()),
                              shading.interpolated()};
     burnish::shade_packet(shading, kernels, runs, m_packet);
+}
+
+void PacketShader::write_colors(const Shading& shading, const std::optional<Blend>& blend,
+                                const KernelTable& kernels) {
+    if (m_copied) m_packet.pixels = m_stored.data();
+    write_pixels(shading.program.result, shading.program.numbers, blend, kernels, m_tile.output,
+                 m_packet);
 }
 
 /// The triangles are interpolated once more, for the values.
@@ -182,6 +186,10 @@ void PacketShader::show_values(const KernelTable& kernels) {
         attribute_planes(shown.values, m_draw.mesh, triangle,
                          m_shown_equations.data() + i * planes);
         m_shown_runs.push_back({m_depth_runs[i], triangle.draw, triangle.number});
+    }
+    if (!shown.aov) {
+        shade_colors(shown.values, kernels);
+        return write_colors(shown.values, std::nullopt, kernels);
     }
     float own_depths[kPacketSize];
     const int depth = m_draw.shading->depth_attribute;

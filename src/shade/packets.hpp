@@ -65,8 +65,10 @@ class PacketShader {
     };
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
     void shade_packet(const KernelTable& kernels);
-    void shade_colors(const KernelTable& kernels);
+    void shade_colors(const Shading& shading, const KernelTable& kernels);
     void show_values(const KernelTable& kernels);
+    void write_colors(const Shading& shading, const std::optional<Blend>& blend,
+                      const KernelTable& kernels);
     [[nodiscard]] bool holds_any(const PixelMask& pixels) const;
     void hold(const PixelMask& pixels);
 

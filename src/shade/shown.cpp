@@ -46,7 +46,7 @@ class ValueReader {
   public:
     ValueReader(const ShownValues& shown, const Packet& packet, const float* own_depths,
                 bool floats)
-        : m_aov(shown.aov),
+        : m_aov(*shown.aov),
           m_count(shown.values.interpolated()),
           m_packet(packet),
           m_own_depths(own_depths),

@@ -3,6 +3,8 @@
 #include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
 
 #include "kernels/kernel_table.hpp"
 #include "shade/output.hpp"
@@ -10,10 +12,10 @@
 
 namespace burnish {
 
-/// Values of an object's geometry that a frame shows in place of its colours.
+/// What a frame shows in place of an object's colours, of fragments that passed all tests.
 struct ShownValues {
-    Aov aov;
-    Shading values;  ///< what triangles interpolate for it; it has no program
+    std::optional<Aov> aov;  ///< nothing: the result of the program of `values`, a register
+    Shading values;          ///< what triangles interpolate for it; with an aov it has no program
 };
 
 ShownValues shown_values(Aov aov, const Object& object);
@@ -27,7 +29,7 @@ struct ShownRun {
     std::uint32_t object, triangle;
 };
 
-/// Values of a packet whose attributes are those of `shown.values`, to the pixels `stored`.
+/// The aov of a packet whose attributes are those of `shown.values`, to the pixels `stored`.
 /// `own_depths`: the fragments' depths if they replace the triangles', else null.
 void write_values(const ShownValues& shown, const Packet& packet, std::span<const ShownRun> runs,
                   const float* own_depths, const std::uint16_t* stored, const OutputTile& tile);

@@ -42,7 +42,7 @@ struct ShownRegister {
 };
 
 /// Geometry as the picture, of the fragments that the picture would show last; nothing is blended.
-/// Alpha is 1; where there is no fragment all channels are 0, but `depth` is 1.
+/// Alpha is 1. Where there is no fragment all four channels are 0, or 1 with `depth`.
 ///
 /// Frames of floats get numbers as they are. Others get them to the nearest code, clamped to 0 .. 1
 /// unless it says otherwise.
