@@ -83,7 +83,8 @@ std::string fetch_json(const TracedFetch& f) {
         "\"r\": {}, \"level_of_detail\": {}, {}, \"further\": {}, \"codes\": {}, {}}}",
         f.unit, f.width, f.height, filter_name(f.sampler.filter), json(f.u), json(f.v), maybe(f.r),
         maybe(f.lod), taps_json(f),
-        json_list(f.further, [](const TracedTaps& t) { return "{" + taps_json(t) + "}"; }),
+        json_list(f.further,
+                  [](const TracedTaps& t) { return fmt::format("{{{}}}", taps_json(t)); }),
         json_list(f.codes), json_members(f.color));
 }
 

@@ -219,8 +219,7 @@ class Planner {
         int planes = m_free.reg;
         m_shading.stage_fetches.clear();
         for (const BoundFetch& fetch : program.fetches) {
-            SamplePlan sampling = m_sampling;
-            sampling.last.reset();
+            SamplePlan sampling{m_sampling.numbers, m_sampling.attributes, m_sampling.planes};
             FreePlanes free = m_free;
             const Texture& texture = *m_material.units[static_cast<std::size_t>(fetch.unit)];
             m_shading.stage_fetches.push_back(
