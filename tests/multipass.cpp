@@ -1,16 +1,20 @@
-// Programs in several passes: the passes' frames and the last pass's colour, by the interpreter,
-// against the whole program on a machine that has room for it.
+// Programs in several passes, against the whole program on a machine that has room for it: the
+// passes' frames and the last pass's colour by the interpreter, and pictures.
 #include <burnish/multipass.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
+#include <burnish/trace.hpp>
+#include <set>
 #include <string>
 
 #include "machine/interpreter.hpp"
 #include "tests/random_program.hpp"
+#include "tests/scenes.hpp"
 
 namespace burnish {
 namespace {
@@ -241,6 +245,118 @@ TEST(Multipass, RandomProgramsGiveTheSameBits) {
     EXPECT_GT(split, 500);
     RecordProperty("split", split);
     RecordProperty("passes", passes_in_all);
+}
+
+// ---- pictures
+
+/// Four stages and five textures, of which two machines have less.
+ProgramMaterial long_material() {
+    ProgramMaterial material;
+    material.combiners = parsed(
+        "{ const0 = (0.9, 0.8, 0.7, 1); rgb { spare0 = tex0 * col0; spare1 = tex1 * const0; }\n"
+        "  alpha { spare1 = tex0 * unsigned(tex1); } }\n"
+        "{ const0 = (0.2, 0.6, 0.4, 1); rgb { discard = spare0 * const0; discard = spare1 * tex2;\n"
+        "  spare0 = sum(); scale_by_two(); } }\n"
+        "{ rgb { discard = spare0 * spare0; discard = tex3 * spare1.a; spare0 = sum(); } }\n"
+        "{ rgb { spare0 = unsigned_invert(spare0) * spare1.a; } alpha { spare0 = tex3 * col0; } }\n"
+        "final_product = spare0 * col1; out.rgb = final_product + spare0; out.a = spare0;");
+    const std::array sizes{16, 32, 8, 64};
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const auto shift = static_cast<std::uint8_t>(40 * i);
+        material.units.push_back(scenes::streaks(
+            sizes[i], sizes[i], {static_cast<std::uint8_t>(90 + shift), 200, 120, 220}, 60));
+    }
+    return material;
+}
+
+Scene ball(const Machine& machine) {
+    Scene scene = scenes::lit_scene(machine, 96, 64);
+    auto material = std::make_shared<Material>();
+    material->program = long_material();
+    material->program->col0_rgb = ColorInput::light_tangent;
+    material->program->col0_a = ColorInput::n_dot_l;
+    material->program->col1_rgb = ColorInput::half_tangent;
+    scene.objects.push_back({Mesh(shapes::sphere(24, 12)), material, glm::mat4(1.0F), {}});
+    return scene;
+}
+
+/// Every unit with coordinates of its own, one layer blended over another.
+Scene quads(const Machine& machine) {
+    Scene scene;
+    scene.machine = machine;
+    scene.width = 80;
+    scene.height = 70;
+    auto material = std::make_shared<Material>();
+    material->program = long_material();
+    RawVertices raw;
+    raw.space = Space::window;
+    raw.topology = Topology::quads;
+    for (const float shift : {0.0F, 11.0F}) {
+        for (const auto& [x, y] :
+             {std::pair(3.0F, 2.0F), {70.0F, 5.0F}, {66.0F, 57.0F}, {9.0F, 50.0F}}) {
+            RawVertex v;
+            v.position = {x + shift / 2, y + shift, 0.5F, 1.0F + 0.01F * y};
+            v.color0 = {x / 80.0F, y / 70.0F, 0.7F, 0.9F};
+            v.color1 = {0.5F, 0.6F, x / 80.0F, 1.0F};
+            for (std::size_t i = 0; i < v.uv.size(); ++i) {
+                const auto k = static_cast<float>(i + 1);
+                v.uv[i] = {0.02F * k * x, 0.03F * y - 0.1F * k, 0.0F, 1.0F};
+            }
+            raw.vertices.push_back(v);
+        }
+    }
+    RasterState state{.depth_test = DepthTest::always};
+    state.blend = Blend{BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
+    scene.objects.push_back({raw, material, glm::mat4(1.0F), state});
+    return scene;
+}
+
+std::vector<std::uint8_t> picture(const Scene& scene, std::string_view isa) {
+    Framebuffer target(scene.width, scene.height);
+    Renderer({.threads = 2, .isa = std::string(isa)}).render(scene, target);
+    std::vector<std::uint8_t> bytes;
+    const auto row_size = 4 * static_cast<std::size_t>(scene.width);
+    for (int y = 0; y < scene.height; ++y) {
+        const auto* row = reinterpret_cast<const std::uint8_t*>(target.row(y));
+        bytes.insert(bytes.end(), row, row + row_size);
+    }
+    return bytes;
+}
+
+class MultipassPictures : public testing::TestWithParam<Scene (*)(const Machine&)> {};
+
+TEST_P(MultipassPictures, HaveTheBitsOfOnePass) {
+    const auto make = GetParam();
+    const std::vector<std::uint8_t> want = picture(make(roomy()), "reference");
+    std::set<std::uint8_t> values(want.begin(), want.end());
+    EXPECT_GT(values.size(), 50U);  // or the picture proves nothing
+    for (const auto& [stages, units, constants] :
+         {std::tuple(2, 4, true), {1, 4, true}, {3, 3, true}, {2, 4, false}}) {
+        Machine machine = small(stages, units, constants);
+        EXPECT_THROW(picture(make(machine), "reference"), Error);
+        machine.multipass = true;
+        for (const IsaInfo& isa : instruction_sets()) {
+            if (!isa.available) continue;
+            EXPECT_EQ(picture(make(machine), isa.name), want)
+                << isa.name << ", " << stages << " stages, " << units << " units";
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MultipassPictures, testing::Values(ball, quads),
+                         [](const auto& test) { return test.param == ball ? "ball" : "quads"; });
+
+/// Registers of a program in passes are those of the program: traced, and as pictures.
+TEST(Multipass, RegistersAreThoseOfTheWholeProgram) {
+    Machine machine = small(2, 4);
+    machine.multipass = true;
+    const Scene scene = ball(machine);
+    const PixelTrace trace = trace_pixel(scene, 50, 30);
+    ASSERT_TRUE(trace.fragment);
+    EXPECT_EQ(trace.fragment->stages.size(), 6U);  // inputs, four stages, final
+    const std::vector<std::uint8_t> bytes = picture(scene, "");
+    for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_EQ(trace.stored[c], bytes[4 * (30 * 96 + 50) + c]) << c;
 }
 
 }  // namespace

@@ -207,6 +207,8 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             },
             "Machine profile: geforce256, nv2a or ideal")
         ->type_name("PROFILE");
+    verb.add_flag("--multipass", picture.multipass,
+                  "Split programs that need more than the machine has into passes");
     verb.add_option_function<std::string>(
             "--half-vector",
             [&picture](const std::string& word) {

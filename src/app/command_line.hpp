@@ -27,6 +27,7 @@ struct PictureOptions {
     std::vector<std::string> overrides;  ///< -D
     std::optional<glm::ivec2> size;
     std::optional<std::string> machine;
+    bool multipass = false;
     std::optional<HalfVector> half_vector;
     CameraOptions camera;
     std::vector<Light> lights;  ///< instead of the scene's, if not empty

@@ -61,7 +61,7 @@ void read_machine(const toml::table& table, Scene& scene) {
     const Section section(
         table, "[machine]",
         {"profile", "filter_order", "texture_units", "general_stages", "stage_constants", "numbers",
-         "product_rounding", "expand", "halving", "lerp_rounding", "magnitude_factor",
+         "product_rounding", "expand", "halving", "lerp_rounding", "magnitude_factor", "multipass",
          "subpixel_bits", "snap", "half_vector"});
     Machine machine = read_profile(section);
     section.accept_only("filter_order", "before");
@@ -82,6 +82,7 @@ void read_machine(const toml::table& table, Scene& scene) {
     machine.magnitude_factor =
         section.choice<MagnitudeFactor>("magnitude_factor", kMagnitudeFactors)
             .value_or(machine.magnitude_factor);
+    machine.multipass = section.boolean("multipass").value_or(machine.multipass);
     machine.half_vector =
         section.choice<HalfVector>("half_vector", kHalfVectors).value_or(machine.half_vector);
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);

@@ -372,13 +372,17 @@ class Splitter {
 
 }  // namespace
 
-std::vector<ProgramPass> split_into_passes(const CombinerProgram& program, const Machine& machine,
-                                           std::span<const UnitTexels> units, bool fixed) {
+Machine with_room(const Machine& machine) {
     Machine roomy = machine;
     roomy.general_stages = 16;
     roomy.texture_units = 16;
     roomy.stage_constants = true;
-    program.validate(roomy);
+    return roomy;
+}
+
+std::vector<ProgramPass> split_into_passes(const CombinerProgram& program, const Machine& machine,
+                                           std::span<const UnitTexels> units, bool fixed) {
+    program.validate(with_room(machine));
     if (machine.numbers != NumberModel::nine_bit)
         throw Error(ErrorCode::bad_program,
                     fmt::format("cannot be split into passes: an 8-bit frame does not hold the "

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <burnish/error.hpp>
+#include <burnish/multipass.hpp>
+#include <span>
 #include <utility>
 
 namespace burnish {
@@ -57,15 +59,17 @@ Varying::Source source_of(const ColorSlot& slot) {
 /// Decides where every attribute comes from and which operations bring it to the registers.
 class Planner {
   public:
-    Planner(Shading& shading, const ProgramMaterial& material, const Machine& machine, bool is_mesh)
+    /// @param units  of a pass: what they are in the whole material
+    Planner(Shading& shading, const ProgramMaterial& material, const Machine& machine, bool is_mesh,
+            std::span<const PassUnit> units)
         : m_shading(shading),
           m_material(material),
+          m_units(units),
           m_machine(machine),
           m_is_mesh(is_mesh),
           m_per_pixel(machine.half_vector == HalfVector::pixel),
           m_sampling{shading.program.numbers, kSampleScratch, shading.program.plane_count},
           m_free{kUnitAttributes, shading.program.plane_count + kSamplePlanes} {
-        shading.varying_list.clear();
         shading.inputs.clear();
         shading.frame_attributes =
             is_mesh ? kUvAttributes + (m_per_pixel ? kFrameAttributes : 0) : 0;
@@ -162,6 +166,7 @@ class Planner {
 
     /// Attribute plane of a component of a unit's coordinates, -1 where it is that of (0, 0, 0, 1).
     int coordinate(int unit, int component) {
+        if (!m_units.empty()) unit = m_units[static_cast<std::size_t>(unit)].material_unit;
         const int set = unit < kUnitsWithCoordinates ? unit : 0;
         const CoordinateInput input = m_material.uv[static_cast<std::size_t>(set)];
         const bool own = input == CoordinateInput::uv || input == CoordinateInput::vertex;
@@ -241,6 +246,7 @@ class Planner {
 
     Shading& m_shading;
     const ProgramMaterial& m_material;
+    std::span<const PassUnit> m_units;
     const Machine& m_machine;
     bool m_is_mesh, m_per_pixel;
     SamplePlan m_sampling;
@@ -251,19 +257,114 @@ class Planner {
     LightingCtx m_lighting{};
 };
 
+/// Binds and plans one pass. Attributes that earlier passes asked for keep their places.
+void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine& machine,
+               bool is_mesh, const Wanted& wanted, std::span<const PassUnit> units = {}) {
+    shading.unit_states = unit_states(material, machine);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        const std::uint32_t bit = 1U << i;
+        if (units[i].frame < 0) continue;
+        shading.unit_states.enabled |= bit;
+        shading.unit_states.black &= ~bit;
+    }
+    shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
+    Planner(shading, material, machine, is_mesh, units).plan(shading.space);
+}
+
+bool has_room_for(const Machine& machine, const ProgramMaterial& material) {
+    if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) return false;
+    try {
+        material.combiners.validate(machine);
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
+
+std::vector<UnitTexels> unit_texels(const ProgramMaterial& material) {
+    std::vector<UnitTexels> kinds(16, UnitTexels::none);
+    for (std::size_t i = 0; i < material.units.size(); ++i) {
+        if (!material.units[i]) continue;
+        const bool is_unsigned =
+            format_class(material.units[i]->format()) == TexelClass::unsigned_rgba;
+        kinds[i] = is_unsigned ? UnitTexels::unsigned_texels : UnitTexels::signed_texels;
+    }
+    // Units of a shader may have colours without a texture, and no alpha without a colour.
+    for (std::size_t i = 0; material.texture_shader && i < material.texture_shader->units.size();
+         ++i) {
+        if (kinds[i] == UnitTexels::none) kinds[i] = UnitTexels::unsigned_texels;
+    }
+    return kinds;
+}
+
+/// The material as a pass has it: its own program, and the textures that it reads.
+ProgramMaterial material_of_pass(const ProgramMaterial& material, const ProgramPass& pass) {
+    ProgramMaterial own = material;
+    own.combiners = pass.program;
+    own.units.assign(pass.units.size(), nullptr);
+    for (std::size_t i = 0; i < pass.units.size(); ++i) {
+        const int unit = pass.units[i].material_unit;
+        if (unit >= 0 && unit < static_cast<int>(material.units.size())) {
+            own.units[i] = material.units[static_cast<std::size_t>(unit)];
+        }
+    }
+    return own;
+}
+
+/// What units of a pass read from frames, after its other inputs.
+void add_frames(const ProgramPass& pass, int first_frame, const BoundProgram& program,
+                std::vector<InputOp>& inputs) {
+    for (std::size_t i = 0; i < pass.units.size(); ++i) {
+        const int to = program.input[static_cast<std::size_t>(tex(static_cast<int>(i)))][0];
+        if (pass.units[i].frame < 0 || to < 0) continue;
+        for (int c = 0; c < 4; ++c) {
+            inputs.emplace_back(CopyCtx{first_frame + 4 * pass.units[i].frame + c, to + c});
+        }
+    }
+}
+
+void plan_passes(Shading& shading, const ProgramMaterial& material, const Machine& machine,
+                 bool is_mesh) {
+    const std::vector<ProgramPass> passes = split_into_passes(
+        material.combiners, machine, unit_texels(material), material.texture_shader.has_value());
+    int first_frame = 0;  // behind the planes of all passes
+    bool quads = false;
+    for (const ProgramPass& pass : passes) {
+        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, {}, pass.units);
+        first_frame = std::max(first_frame, shading.program.plane_count);
+        quads |= shading.quads;
+        if (&pass == &passes.back()) break;
+        shading.earlier_passes.push_back({std::move(shading.inputs), shading.program, 0});
+    }
+    shading.quads = quads;
+    for (std::size_t i = 0; i < shading.earlier_passes.size(); ++i) {
+        EarlierPass& pass = shading.earlier_passes[i];
+        pass.frame = first_frame + 4 * static_cast<int>(i);
+        add_frames(passes[i], first_frame, pass.program, pass.inputs);
+    }
+    add_frames(passes.back(), first_frame, shading.program, shading.inputs);
+    shading.program.plane_count = first_frame + 4 * static_cast<int>(shading.earlier_passes.size());
+}
+
 }  // namespace
 
 void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
                   bool is_mesh, const Wanted& wanted) {
+    shading.textures = material.units;
+    shading.varying_list.clear();
+    shading.earlier_passes.clear();
+    if (machine.multipass && !has_room_for(machine, material)) {
+        // Registers between the passes are those of the whole program.
+        const bool inside = wanted.everything || wanted.reg;
+        if (!inside) return plan_passes(shading, material, machine, is_mesh);
+        return plan_pass(shading, material, with_room(machine), is_mesh, wanted);
+    }
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
         throw Error(ErrorCode::bad_program,
                     fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
                                 machine.name, machine.texture_units));
     }
-    shading.unit_states = unit_states(material, machine);
-    shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
-    shading.textures = material.units;
-    Planner(shading, material, machine, is_mesh).plan(shading.space);
+    plan_pass(shading, material, machine, is_mesh, wanted);
 }
 
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out) {
@@ -352,9 +453,30 @@ void run_program(const Shading& shading, const KernelTable& kernels, const Attri
     run_final(program, kernels, packet);
 }
 
+namespace {
+
+void run_pass(const EarlierPass& pass, const KernelTable& kernels, const AttributesCtx& runs,
+              Packet& packet) {
+    load_constants(pass.program, packet);
+    for (const InputOp& op : pass.inputs) {
+        feed_input(op, pass.program.numbers, kernels, runs, packet);
+    }
+    run_portions(pass.program, kernels, packet, 0, pass.program.portions.size());
+    run_final(pass.program, kernels, packet);
+    for (int c = 0; c < 4; ++c) {
+        const int from = pass.program.result[static_cast<std::size_t>(c)];
+        std::copy_n(packet.planes + from * kPacketSize, kPacketSize,
+                    packet.planes + (pass.frame + c) * kPacketSize);
+    }
+}
+
+}  // namespace
+
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                   Packet& packet) {
     kernels.attributes(packet, runs);
+    for (const EarlierPass& pass : shading.earlier_passes) run_pass(pass, kernels, runs, packet);
+    if (!shading.earlier_passes.empty()) load_constants(shading.program, packet);
     for (const InputOp& op : shading.inputs) {
         feed_input(op, shading.program.numbers, kernels, runs, packet);
     }

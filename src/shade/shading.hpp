@@ -32,6 +32,15 @@ struct StageSampling {
     std::vector<InputOp> ops;
 };
 
+/// A pass that leaves a frame for later ones. A frame is read at the pixel that wrote it, so it
+/// need not outlive the packet: four register planes, 0 .. 255 each, are the pixels of an 8-bit
+/// frame.
+struct EarlierPass {
+    std::vector<InputOp> inputs;
+    BoundProgram program;
+    int frame;  ///< first of the four planes
+};
+
 /// How one object's fragments get their colour: what its triangles interpolate, what fills the
 /// registers, the program.
 struct Shading {
@@ -50,6 +59,7 @@ struct Shading {
     /// dropped. Or -1.
     int depth_attribute = -1;
     bool quads = false;  ///< fragments must come as whole 2x2 quads of one triangle
+    std::vector<EarlierPass> earlier_passes;  ///< in front of inputs and program, the last pass
     BoundProgram program;
     std::vector<StageSampling> stage_fetches;  ///< of program.fetches, in their order
     std::vector<TexturePtr> textures;          ///< keeps the texels alive
@@ -75,8 +85,8 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
 void run_program(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                  Packet& packet);
 
-/// Input operations and program: colours to the planes `shading.program.result`. The packet's runs,
-/// pixels and constant planes are in place.
+/// Input operations and program, pass by pass: colours to the planes `shading.program.result`. The
+/// packet's runs, pixels and constant planes are in place.
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                   Packet& packet);
 

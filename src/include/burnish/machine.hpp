@@ -71,6 +71,9 @@ struct Machine {
     ExpandRule expand = ExpandRule::hardware;
     Halving halving = Halving::half_up;
     LerpRounding lerp_rounding = LerpRounding::once;
+    /// Programs that need more than the machine has are split into passes, where they can be
+    /// (burnish/multipass.hpp), instead of refused.
+    bool multipass = false;
     HalfVector half_vector = HalfVector::pixel;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest

@@ -32,8 +32,11 @@ struct ProgramPass {
     std::vector<PassUnit> units;  ///< at most as many as the machine has
 };
 
-/// The passes, in order, that give on `machine` what `program` gives on the same machine with as
-/// many stages, units and constants as it asks for: the same bits. A program that fits is one pass.
+/// The machine with as many general stages, texture units and constants as a program may ask for.
+Machine with_room(const Machine& machine);
+
+/// The passes, in order, that give on `machine` what `program` gives on with_room(machine): the
+/// same bits. A program that fits is one pass.
 /// @param units  the material's; more than `machine` has are welcome
 /// @param fixed  units keep their numbers, as those of a texture shader must
 /// Throws Error{bad_program} with the first obstacle where there is no such split: values that an
