@@ -7,6 +7,7 @@
 #include <burnish/error.hpp>
 
 #include "kernel_test.hpp"
+#include "shade/shading.hpp"
 #include "tests/textured_quad.hpp"
 
 namespace burnish {
