@@ -479,12 +479,16 @@ TEST_F(SceneFiles, BlendingArrivesByNameAndByFactors) {
 
 TEST_F(SceneFiles, BlendingErrors) {
     const std::string object = "[[objects]]\nshape = \"cube\"\nblend = ";
-    EXPECT_SAYS(bad(object + "\"alhpa\"\n"), "FILE:4: 'blend' = \"alhpa\" in [[objects]], did you mean 'alpha'?");
+    EXPECT_SAYS(bad(object + "\"alhpa\"\n"),
+                "FILE:4: 'blend' = \"alhpa\" in [[objects]], did you mean 'alpha'?");
     EXPECT_SAYS(bad(object + "3\n"), "FILE:4: 'blend' in [[objects]] is an integer");
-    EXPECT_SAYS(bad(object + "{ src = \"src_alhpa\" }\n"), "FILE:4: 'src' = \"src_alhpa\" in 'blend', did you mean 'src_alpha'?");
+    EXPECT_SAYS(bad(object + "{ src = \"src_alhpa\" }\n"),
+                "FILE:4: 'src' = \"src_alhpa\" in 'blend', did you mean 'src_alpha'?");
     EXPECT_SAYS(bad(object + "{ source = \"one\" }\n"), "unknown key 'source' in 'blend'");
-    EXPECT_SAYS(bad(object + "{ equation = \"plus\" }\n"), "expected add, subtract, reverse_subtract, min, max");
-    EXPECT_SAYS(bad(object + "{ constant = [0.0, 0.0, 0.0, 2.0] }\n"), "'constant' in 'blend' has the value 2");
+    EXPECT_SAYS(bad(object + "{ equation = \"plus\" }\n"),
+                "expected add, subtract, reverse_subtract, min, max");
+    EXPECT_SAYS(bad(object + "{ constant = [0.0, 0.0, 0.0, 2.0] }\n"),
+                "'constant' in 'blend' has the value 2");
 }
 
 TEST_F(SceneFiles, AlphaTests) {
