@@ -332,6 +332,96 @@ void add_texels() {
                      fetched);
 }
 
+/// What levels, faces, slices and words cost besides the bilinear fetch.
+void add_levels() {
+    PacketMemory packet;
+    Random random(5);
+    for (int k = 0; k < 4; ++k)
+        for (int i = 0; i < kPacketSize; ++i) packet.attribute(k)[i] = random.real(-1.0F, 1.0F);
+    for (int i = 0; i < kPacketSize; ++i) {
+        packet.attribute(6)[i] = random.real(0.5F, 200.0F);
+        packet.plane(5)[i] = static_cast<std::int16_t>(random.below(900));
+        packet.texel[static_cast<std::size_t>(i)] = 8 * random.below(256);
+        packet.weight_x[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(i);
+        packet.weight_y[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(255 - i);
+    }
+    add_packet_stage("cube_face", &KernelTable::cube_face, packet, CubeFaceCtx{0, 1, 2, 7, 8, 5},
+                     {.planes = {5}, .attributes = {7, 8}});
+    static const std::array<AttributePlane, 4> planes{
+        {{1.0F, 0.001F, 0.002F}, {0.3F, 0.8F, 0.1F}, {0.2F, 0.1F, 0.9F}, {1.0F, 0.0F, 0.0F}}};
+    static std::vector<Run> runs;
+    for (int first = 0; first < kPacketSize; first += 16)
+        runs.push_back({planes.data(), first, 16, 100, 200});
+    const FootprintCtx footprint{0, 1, -1, -1, 0, {256.0F, 256.0F, 1.0F}, 7};
+    add_packet_stage("plane_footprint/runs_of_16", &KernelTable::plane_footprint, packet,
+                     PlaneFootprintCtx{footprint, {runs.data(), static_cast<int>(runs.size()), 3}},
+                     {.attributes = {7}});
+    add_packet_stage("quad_footprint", &KernelTable::quad_footprint, packet,
+                     QuadFootprintCtx{footprint}, {.attributes = {7}});
+    add_packet_stage("level_of_detail", &KernelTable::level_of_detail, packet,
+                     LevelOfDetailCtx{6, 7, 0, 1024}, {.planes = {7}});
+    LevelAddressCtx address{};
+    address.v = 1;
+    address.q = address.r = address.face = address.slice_weight = -1;
+    address.lambda = 5;
+    address.choice = LevelChoice::floor;
+    address.mag_linear = address.min_linear = 1;
+    address.pitch = kPitch;
+    address.texel_bytes = 4;
+    address.level_count = 9;
+    for (int k = 0; k < address.level_count; ++k)
+        address.levels[k] = {kTexture >> k, kTexture >> k, 1, 1000 * k};
+    add_packet_stage("level_address", &KernelTable::level_address, packet, address,
+                     {.addresses = true});
+    add_packet_stage("blend_levels", &KernelTable::blend_levels, packet,
+                     BlendLevelsCtx{10, 14, 20, 4, 5, 0}, {.planes = {20, 21, 22, 23}});
+    static const std::vector<std::uint8_t> texels(8192, 77);
+    add_packet_stage("fetch_hilo", &KernelTable::fetch_hilo, packet,
+                     FetchHiloCtx{texels.data(), 20, 2112}, {.planes = {20, 21}});
+    add_packet_stage("fetch_words", &KernelTable::fetch_words, packet,
+                     FetchWordsCtx{texels.data(), 20, 2112}, {.planes = {20, 21, 22, 23}});
+    add_packet_stage("hilo", &KernelTable::hilo, packet, HiloCtx{5, 7, 0}, {.attributes = {7, 8}});
+}
+
+// ---- between two fetches
+
+void add_texture_shader() {
+    PacketMemory packet;
+    Random random(9);
+    for (int i = 0; i < kPacketSize; ++i) {
+        for (int k = 0; k < 8; ++k) packet.attribute(k)[i] = random.real(-1.0F, 1.0F);
+        packet.attribute(8)[i] = random.real(0.5F, 2.0F);
+        for (int k = 0; k < 8; ++k)
+            packet.plane(k)[i] = static_cast<std::int16_t>(random.below(256));
+    }
+    const Written one{.attributes = {20}};
+    add_packet_stage("decode_nine_bit", &KernelTable::decode_nine_bit, packet,
+                     DecodeCtx{3, 20, Reading::unsigned_texel}, one);
+    add_packet_stage("decode_wide/expand", &KernelTable::decode_wide, packet,
+                     DecodeCtx{3, 20, Reading::expanded}, one);
+    add_packet_stage("affine", &KernelTable::affine, packet, AffineCtx{0, 20, 2.0F, -1.0F, 1.0F},
+                     one);
+    add_packet_stage("dot_product", &KernelTable::dot_product, packet,
+                     DotCtx{{0, 1, 2}, {3, 4, 5}, 20}, one);
+    add_packet_stage("hemisphere", &KernelTable::hemisphere, packet, HemisphereCtx{0, 1, 20}, one);
+    add_packet_stage("offset", &KernelTable::offset, packet,
+                     OffsetCtx{0, 1, -1, 2, 3, {0.1F, 0.2F, 0.3F, 0.4F}, 20},
+                     Written{.attributes = {20, 21}});
+    add_packet_stage("offset/over_q", &KernelTable::offset, packet,
+                     OffsetCtx{0, 1, 8, 2, 3, {0.1F, 0.2F, 0.3F, 0.4F}, 20},
+                     Written{.attributes = {20, 21}});
+    add_packet_stage("reflect", &KernelTable::reflect, packet, ReflectCtx{{0, 1, 2}, {3, 4, 5}, 20},
+                     Written{.attributes = {20, 21, 22}});
+    add_packet_stage("quotient", &KernelTable::quotient, packet, QuotientCtx{0, 8, 20}, one);
+    add_packet_stage("angle", &KernelTable::angle, packet, AngleCtx{0, 1, 20}, one);
+    add_packet_stage("cull", &KernelTable::cull, packet,
+                     CullCtx{{0, 1, 2, 3}, {0, 1, 0, 1}, -1, 20}, one);
+    const MagnitudeCtx dim{4, 0, 8, 0.75F, 0.5F, 1};
+    const Written dimmed{.planes = {8, 9, 10, 11}};
+    add_packet_stage("dim_nine_bit", &KernelTable::dim_nine_bit, packet, dim, dimmed);
+    add_packet_stage("dim_wide", &KernelTable::dim_wide, packet, dim, dimmed);
+}
+
 // ---- combiners
 
 Operand operand(int first, int mapping) {
@@ -540,6 +630,8 @@ int main(int argc, char** argv) {
     add_attributes();
     add_lighting_and_encode();
     add_texels();
+    add_levels();
+    add_texture_shader();
     add_models();
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();

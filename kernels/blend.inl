@@ -193,7 +193,7 @@ void blend_channels(const Packet& packet, const BlendCtx& ctx) {
             for (int i = 0; i < kGroup; ++i) source[i] = Frame::template source<Model>(plane[i]);
             Value* const destination = value[kDestinationRow + c];
             for (int i = 0; i < used; ++i) {
-                destination[i] = static_cast<Value>(tile[pixels[i] * std::size_t{4} + c]);
+                destination[i] = static_cast<Value>(tile[4 * pixels[i] + c]);
             }
         }
         for (int c = 0; c < 4; ++c) {
@@ -205,7 +205,7 @@ void blend_channels(const Packet& packet, const BlendCtx& ctx) {
             }
         }
         for (int i = 0; i < used; ++i) {
-            Channel* const pixel = tile + pixels[i] * std::size_t{4};
+            Channel* const pixel = tile + 4 * pixels[i];
             for (int c = 0; c < 4; ++c) pixel[c] = static_cast<Channel>(out[c][i]);
         }
     }

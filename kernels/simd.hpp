@@ -82,6 +82,15 @@ inline F32 square_root(F32 a) {
 #endif
 }
 
+/// The next lower whole number, -0 for -0: xsimd 8.1 makes 0 of it on neon64.
+inline F32 round_down(F32 a) {
+#if defined(__aarch64__)
+    return vrndmq_f32(a);
+#else
+    return ::xsimd::floor(a);
+#endif
+}
+
 /// Float to int32 towards zero; |v| < 2^31.
 inline I32 truncate(F32 v) {
     return ::xsimd::to_int(v);

@@ -147,7 +147,7 @@ void angle(Packet& packet, const AngleCtx& ctx) noexcept {
     float* const to = attribute_plane(packet, ctx.to);
     for_each_vector(packet, [&](int i) {
         const F32 d = load(a + i) - load(b + i);
-        store(to + i, d - ::xsimd::floor(d));
+        store(to + i, d - round_down(d));
     });
 }
 

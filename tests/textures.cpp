@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <burnish/error.hpp>
+#include <burnish/shapes.hpp>
 #include <burnish/trace.hpp>
 #include <cmath>
 #include <string>
@@ -652,6 +653,47 @@ TEST(Units, ThatShareLevelsGiveWhatTheyGiveAlone) {
             }
         }
     }
+}
+
+// ---- models
+
+Scene ball(const TexturePtr& normal_map) {
+    Scene scene;
+    scene.width = 24;
+    scene.height = 18;
+    scene.machine = machine_profile("nv2a");
+    scene.lights.push_back({});
+    auto material = std::make_shared<Material>();
+    material->normal_map = normal_map;
+    scene.objects.push_back({Mesh(shapes::sphere(12, 7)), material, glm::mat4(1.0F), {}});
+    return scene;
+}
+
+// The maps that a model derives from a normal map with levels have levels, too.
+TEST(Models, DerivedMapsHaveLevelsWhereTheNormalMapHas) {
+    const Scene scene =
+        ball(noisy(1, filtered(Filter::linear_mipmap_linear, 2.0F), TexelFormat::rgba8, true));
+    const Framebuffer frame = draw(scene);
+    const PixelTrace trace = trace_pixel(scene, 12, 9);
+    ASSERT_TRUE(trace.fragment);
+    ASSERT_EQ(trace.fragment->fetches.size(), 2U);
+    for (const TracedFetch& fetch : trace.fragment->fetches) {
+        ASSERT_TRUE(fetch.lod);
+        EXPECT_GT(fetch.lod->value, 0.5);
+        EXPECT_EQ(fetch.further.at(0).level, fetch.level + 1);
+    }
+    for (int c = 0; c < 3; ++c) {
+        const auto at = static_cast<std::size_t>(c);
+        EXPECT_EQ(bytes_at(frame, 12, 9)[at], trace.stored[at]);
+    }
+}
+
+TEST(Models, RefuseMapsThatAreNotFlatBytes) {
+    const TexturePtr cube = numbered_cube();
+    EXPECT_THROW(draw(ball(cube)), Error);
+    EXPECT_THROW(draw(ball(noisy(1, {}, TexelFormat::signed_rgba8, false))), Error);
+    EXPECT_THROW(draw(ball(noisy(1, {}, TexelFormat::hilo8, false))), Error);
+    EXPECT_NO_THROW(draw(ball(noisy(1, {}, TexelFormat::rgb8, false))));
 }
 
 // ---- every kind, every instruction set

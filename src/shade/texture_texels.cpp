@@ -28,7 +28,7 @@ std::uint16_t word_of(std::uint16_t value, bool /*is_signed*/) {
 }
 /// n * 256 of signed bytes, n * 257 of unsigned ones: the same fraction of the range.
 std::uint16_t word_of(std::uint8_t value, bool is_signed) {
-    return static_cast<std::uint16_t>(is_signed ? value << 8U : value * 257U);
+    return static_cast<std::uint16_t>(unsigned{value} * (is_signed ? 256U : 257U));
 }
 
 template <class Value>

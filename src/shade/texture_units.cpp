@@ -242,11 +242,12 @@ class UnitPlanner {
             case Op::texture_rectangle:
                 return sample(i,
                               {coordinate(i, 0), coordinate(i, 1), -1, m_coordinates(i, 3), true});
-            case Op::texture_3d:
-                return sample(i, {coordinate(i, 0), coordinate(i, 1), coordinate(i, 2),
+            case Op::texture_3d:  // without an r, plan_sample refuses
+                return sample(i, {coordinate(i, 0), coordinate(i, 1), m_coordinates(i, 2),
                                   m_coordinates(i, 3), true});
             case Op::texture_cube_map:
-                return sample(i, {coordinate(i, 0), coordinate(i, 1), coordinate(i, 2), -1, true});
+                return sample(i,
+                              {coordinate(i, 0), coordinate(i, 1), m_coordinates(i, 2), -1, true});
             case Op::pass_through:
                 return pass_through(i);
             case Op::cull_fragment:

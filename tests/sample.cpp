@@ -1,0 +1,139 @@
+// What plan_sample hands to dependent texture operations: raw texels, words as numbers, levels from
+// quads. Packets are fed here, on every set of kernels.
+#include "shade/sample.hpp"
+
+#include <gtest/gtest.h>
+
+#include <burnish/error.hpp>
+
+#include "kernel_test.hpp"
+#include "shade/shading.hpp"
+#include "tests/textured_quad.hpp"
+
+namespace burnish {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
+
+constexpr int kRegisters = 0, kValues = 8, kScratchPlanes = 8, kScratchAttributes = 12;
+
+/// Samples `texture` at s, t, r = attributes 0, 1, 2.
+void sample(const Texture& texture, NumberModel numbers, const KernelTable& kernels,
+            PacketMemory& memory) {
+    SamplePlan plan{numbers, kScratchAttributes, kScratchPlanes};
+    std::vector<InputOp> ops;
+    plan_sample(texture, {0, 1, 2, -1, false}, {kRegisters, kValues}, plan, ops);
+    Packet packet = memory.view();
+    for (const InputOp& op : ops) feed_input(op, numbers, kernels, {}, packet);
+}
+
+/// A row of words.
+Texture words(std::vector<std::uint16_t> rg, TexelFormat format, Filter filter) {
+    Image16 image(static_cast<int>(rg.size() / 2), 1);
+    for (std::size_t i = 0; i < rg.size(); ++i) image.rgba[i / 2 * 4 + i % 2] = rg[i];
+    Sampler sampler;
+    sampler.filter = filter;
+    sampler.wrap_s = Wrap::clamp_to_edge;
+    return {std::span<const Image16>(&image, 1), {.format = format, .sampler = sampler}};
+}
+
+TEST_P(KernelTest, HiloTexelsAreNumbersOf16Bits) {
+    PacketMemory memory;
+    memory.count = 4;
+    // Texel centres, halfway between, and 1/512 texel right of the first: a weight of 0.
+    const std::array<float, 4> s{0.25F, 0.75F, 0.5F, 0.25F + 1.0F / 1024.0F};
+    std::copy(s.begin(), s.end(), memory.attribute(0));
+    std::fill_n(memory.attribute(1), 4, 0.5F);
+    sample(words({0, 65535, 1001, 32768}, TexelFormat::hilo16, Filter::linear),
+           NumberModel::nine_bit, table(), memory);
+    EXPECT_EQ(memory.attribute(kValues)[0], 0.0F);
+    EXPECT_EQ(memory.attribute(kValues + 1)[0], 1.0F);
+    EXPECT_EQ(memory.attribute(kValues)[1], 1001.0F / 65535.0F);
+    EXPECT_EQ(memory.attribute(kValues + 1)[1], 32768.0F / 65535.0F);
+    EXPECT_EQ(memory.attribute(kValues)[2], 501.0F / 65535.0F);        // 500.5
+    EXPECT_EQ(memory.attribute(kValues + 1)[2], 49152.0F / 65535.0F);  // 49151.5
+    EXPECT_EQ(memory.attribute(kValues)[3], 0.0F);
+
+    sample(words({0x8000, 0x7fff, 0xffff, 0}, TexelFormat::signed_hilo16, Filter::linear),
+           NumberModel::wide, table(), memory);
+    EXPECT_EQ(memory.attribute(kValues)[0], -1.0F);
+    EXPECT_EQ(memory.attribute(kValues + 1)[0], 32767.0F / 32768.0F);
+    EXPECT_EQ(memory.attribute(kValues)[1], -1.0F / 32768.0F);
+    EXPECT_EQ(memory.attribute(kValues)[2], -16384.0F / 32768.0F);     // -16384.5
+    EXPECT_EQ(memory.attribute(kValues + 1)[2], 16384.0F / 32768.0F);  // 16383.5
+}
+
+// Bytes are stored as 8 bits and filtered as 16: halfway between 0 and 1 is 257 / 2, not 0 or 1.
+TEST_P(KernelTest, HiloOfBytesFiltersAt16Bits) {
+    PacketMemory memory;
+    memory.count = 1;
+    memory.attribute(0)[0] = memory.attribute(1)[0] = 0.5F;
+    Image8 image(2, 1);
+    image.at(1, 0)[0] = 1;
+    image.at(1, 0)[1] = 255;
+    sample(Texture(image, {}, TexelFormat::hilo8), NumberModel::wide, table(), memory);
+    EXPECT_EQ(memory.attribute(kValues)[0], 129.0F / 65535.0F);        // 128.5
+    EXPECT_EQ(memory.attribute(kValues + 1)[0], 32768.0F / 65535.0F);  // 32767.5
+    sample(Texture(image, {}, TexelFormat::signed_hilo8), NumberModel::wide, table(), memory);
+    EXPECT_EQ(memory.attribute(kValues)[0], 128.0F / 32768.0F);
+    EXPECT_EQ(memory.attribute(kValues + 1)[0], -128.0F / 32768.0F);  // 255 is -1, -256 of words
+}
+
+TEST_P(KernelTest, DsdtTexelsArriveAsTheyAre) {
+    PacketMemory memory;
+    memory.count = 1;
+    memory.attribute(0)[0] = memory.attribute(1)[0] = 0.5F;
+    const Texture texture(plain_image(1, 1, {200, 100, 60, 130}), {},
+                          TexelFormat::dsdt8_mag8_intensity8);
+    const auto codes = [&](NumberModel numbers) -> Bytes {
+        sample(texture, numbers, table(), memory);
+        return {memory.plane(0)[0], memory.plane(1)[0], memory.plane(2)[0], memory.plane(3)[0]};
+    };
+    // 200 is -56. Codes of signed bytes are 2 n and 128 n; 60 / 255 * 2^14 is 3855.06, 130: 8352.6.
+    EXPECT_EQ(codes(NumberModel::nine_bit), (Bytes{-112, 200, 60, 130}));
+    EXPECT_EQ(codes(NumberModel::wide), (Bytes{-56 * 128, 12800, 3855, 8353}));
+}
+
+// Level k of a 16 x 16 texture is 10 (k + 1). Two quads: the first 4 texels wide and 2 high, the
+// second with one fragment that strays: each takes the differences of its own row and column.
+TEST_P(KernelTest, QuadsGiveLevelsOfComputedCoordinates) {
+    std::vector<Image8> images;
+    for (int side = 16, grey = 10; side >= 1; side /= 2, grey += 10)
+        images.push_back(plain_image(side, side, {grey, grey, grey, grey}));
+    Sampler sampler;
+    sampler.filter = Filter::linear_mipmap_linear;
+    const TexturePtr texture = make_texture(images, {.sampler = sampler});
+    EXPECT_TRUE(needs_level_of_detail(*texture));
+    PacketMemory memory;
+    memory.count = 8;
+    const std::array<float, 8> s{0.0F, 4.0F, 0.0F, 4.0F, 0.0F, 1.0F, 0.0F, 8.0F};
+    const std::array<float, 8> t{0.0F, 0.0F, 2.0F, 2.0F, 0.0F, 0.0F, 1.0F, 1.0F};
+    for (std::size_t i = 0; i < 8; ++i) {
+        memory.attribute(0)[i] = s[i] / 16.0F;
+        memory.attribute(1)[i] = t[i] / 16.0F;
+    }
+    sample(*texture, NumberModel::nine_bit, table(), memory);
+    const std::int16_t* codes = memory.plane(kRegisters);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(codes[i], 30) << i;  // level 2
+    EXPECT_EQ(codes[4], 10);                                   // 1 to the right, 1 down
+    // 1 along its row; down 7 and 1: sqrt(50) is 2^2.8219, 722 / 256 after rounding: level 2 and
+    // 210 / 256, (46 * 30 + 210 * 40 + 128) >> 8 = 38.7 -> 38.
+    EXPECT_EQ(codes[5], 38);
+    EXPECT_EQ(codes[6], 40);  // 8 to the right
+    EXPECT_EQ(codes[7], 40);  // 8 to the left; down 7 and 1
+}
+
+TEST(Sample, RefusesWhatCannotBe) {
+    SamplePlan plan{NumberModel::nine_bit, kScratchAttributes, kScratchPlanes};
+    std::vector<InputOp> ops;
+    const Image16 image(1, 1);
+    const Texture wide(std::span(&image, 1), {.format = TexelFormat::rgba16});
+    EXPECT_THROW(plan_sample(wide, {0, 1, -1, -1, true}, {0, 0}, plan, ops), Error);
+    const TexturePtr cube = make_texture(std::vector<Image8>(6, plain_image(1, 1, {})),
+                                         {.target = TextureTarget::cube});
+    EXPECT_THROW(plan_sample(*cube, {0, 1, -1, -1, true}, {0, 0}, plan, ops), Error);
+    EXPECT_FALSE(needs_level_of_detail(*cube));
+}
+
+}  // namespace
+}  // namespace burnish
