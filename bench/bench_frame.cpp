@@ -7,6 +7,7 @@
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,59 @@ Scene ellipsoid_scene() {
     return scene;
 }
 
+/// S8: eight layers over the whole frame, back to front, one texture of about a texel per pixel.
+Scene layers_scene(const std::optional<Blend>& blend) {
+    Scene scene;
+    scene.width = kWidth;
+    scene.height = kHeight;
+    scene.machine = machine_profile("nv2a");
+    Image8 image(512, 512);
+    for (int y = 0; y < 512; ++y)
+        for (int x = 0; x < 512; ++x)
+            for (int c = 0; c < 4; ++c)
+                image.at(x, y)[c] = static_cast<std::uint8_t>(x * (c + 3) + y * 7 + x * y / 16);
+    using namespace combine;
+    ProgramBuilder p;
+    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(tex(0)));
+    p.out_alpha(alpha(raw(tex(0))));
+    auto material = std::make_shared<Material>();
+    material->program.emplace();
+    material->program->combiners = p.build();
+    material->program->units = {std::make_shared<Texture>(image, Sampler{})};
+    for (int layer = 0; layer < 8; ++layer) {
+        RawVertices raw{Space::window, Topology::quads, {}};
+        for (const auto& [x, y] :
+             {std::pair{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}}) {
+            RawVertex v;
+            v.position = {x * kWidth, y * kHeight, 0.9F - 0.1F * static_cast<float>(layer), 1.0F};
+            v.uv[0] = {x * 4.0F, y * 2.0F + 0.1F * static_cast<float>(layer), 0.0F, 1.0F};
+            raw.vertices.push_back(v);
+        }
+        scene.objects.push_back({std::move(raw), material, glm::mat4(1.0F), {.blend = blend}});
+    }
+    return scene;
+}
+
+struct TimedScene {
+    explicit TimedScene(Scene s) : scene(std::move(s)), want(kWidth, kHeight) {
+        Renderer({.isa = "reference"}).render(scene, want);
+    }
+    Scene scene;
+    Framebuffer want;
+};
+const TimedScene& timed_scene(const std::string& name) {
+    if (name == "S8_blend") {
+        static const TimedScene scene(layers_scene(Blend::alpha()));
+        return scene;
+    }
+    if (name == "S8_opaque") {
+        static const TimedScene scene(layers_scene({}));
+        return scene;
+    }
+    static const TimedScene scene(ellipsoid_scene());
+    return scene;
+}
+
 bool same_frames(const Framebuffer& a, const Framebuffer& b) {
     for (int y = 0; y < a.height(); ++y) {
         const auto bytes = static_cast<std::size_t>(a.width()) * pixel_size(a.format());
@@ -48,15 +102,8 @@ bool same_frames(const Framebuffer& a, const Framebuffer& b) {
     return true;
 }
 
-void frame(benchmark::State& state, const std::string& isa, int threads) {
-    static const Scene scene = ellipsoid_scene();
-    static const Framebuffer want = [] {
-        Framebuffer target(kWidth, kHeight);
-        RendererOptions options;
-        options.isa = "reference";
-        Renderer(options).render(scene, target);
-        return target;
-    }();
+void frame(benchmark::State& state, const std::string& name, const std::string& isa, int threads) {
+    const auto& [scene, want] = timed_scene(name);
     RendererOptions options;
     options.isa = isa;
     options.threads = threads;
@@ -181,6 +228,18 @@ void tile(benchmark::State& state, const KernelTable* kernels) {
                             static_cast<std::int64_t>(geometry().indices.size() / 3));
 }
 
+void register_frame(const std::string& scene, const std::string& isa, int threads) {
+    const std::string name =
+        "frame/" + scene + "_1080p/" + isa + "/threads:" + std::to_string(threads);
+    benchmark::RegisterBenchmark(name.c_str(), frame, scene, isa, threads)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Repetitions(9)  // of which the median counts: machines are noisy
+        ->ComputeStatistics(
+            "min", [](const std::vector<double>& v) { return *std::ranges::min_element(v); })
+        ->DisplayAggregatesOnly();
+}
+
 void register_all() {
     benchmark::RegisterBenchmark("raster/setup", setup)->Unit(benchmark::kMicrosecond);
     benchmark::RegisterBenchmark("raster/bin", bin)->Unit(benchmark::kMicrosecond);
@@ -189,21 +248,10 @@ void register_all() {
         benchmark::RegisterBenchmark(("raster/tiles/" + isa).c_str(), tile, table)
             ->Unit(benchmark::kMicrosecond);
         if (table == &table_reference()) continue;
-        for (const int threads : {1, 2}) {
-            const std::string name =
-                "frame/S1c_1080p/" + isa + "/threads:" + std::to_string(threads);
-            benchmark::RegisterBenchmark(name.c_str(), frame, isa, threads)
-                ->Unit(benchmark::kMillisecond)
-                ->UseRealTime()
-                ->Repetitions(9)  // of which the median counts: machines are noisy
-                ->ComputeStatistics(
-                    "min",
-                    [](const std::vector<double>& v) { return *std::ranges::min_element(v); })
-                ->DisplayAggregatesOnly();
-        }
+        for (const std::string scene : {"S1c", "S8_opaque", "S8_blend"})
+            for (const int threads : {1, 2}) register_frame(scene, isa, threads);
     }
 }
-
 }  // namespace
 }  // namespace burnish
 

@@ -509,6 +509,47 @@ void add_store(const std::string& name,
     }
 }
 
+/// The inverse of store, blending, and store.
+void add_blend(const std::string& name,
+               void (*KernelTable::*stage)(Packet&, const BlendCtx&) noexcept,
+               const PacketMemory& before) {
+    const std::array<const char*, 3> formats{"rgba8", "rgba16", "rgba32f"};
+    for (std::size_t f = 0; f < formats.size(); ++f) {
+        BlendCtx ctx{};
+        for (std::int16_t c = 0; c < 4; ++c) ctx.plane[c] = c;
+        ctx.format = static_cast<StoreFormat>(f);
+        ctx.source = {BlendOperand::source_alpha, 0};
+        ctx.destination = {BlendOperand::source_alpha, 1};
+        const auto blend = [=](const KernelTable& table, AlignedVector<std::uint8_t>& tile) {
+            PacketMemory memory = before;
+            Packet packet = memory.view();
+            BlendCtx in_tile = ctx;
+            in_tile.tile = tile.data();
+            (table.*stage)(packet, in_tile);
+        };
+        add(
+            name + "/" + formats[f], before.count,
+            [=](const KernelTable& table) -> std::string {
+                AlignedVector<std::uint8_t> got(std::size_t{16} * (kTilePixels + 1));
+                AlignedVector<std::uint8_t> want = got;
+                blend(table, got);
+                blend(table_reference(), want);
+                return got == want ? "" : "pixels";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                AlignedVector<std::uint8_t> tile(std::size_t{16} * (kTilePixels + 1));
+                PacketMemory memory = before;
+                Packet packet = memory.view();
+                BlendCtx in_tile = ctx;
+                in_tile.tile = tile.data();
+                for (auto _ : state) {
+                    (table.*stage)(packet, in_tile);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
 void add_models() {
     Random random(5);
     PacketMemory nine_bit;
@@ -521,6 +562,8 @@ void add_models() {
     add_final("final_wide", &KernelTable::final_wide, wide);
     add_store("store_nine_bit", &KernelTable::store_nine_bit, nine_bit);
     add_store("store_wide", &KernelTable::store_wide, wide);
+    add_blend("blend_nine_bit", &KernelTable::blend_nine_bit, nine_bit);
+    add_blend("blend_wide", &KernelTable::blend_wide, wide);
 }
 
 std::string cpu_name() {

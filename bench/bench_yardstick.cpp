@@ -14,6 +14,7 @@
 
 #include "bench/fused_lobe.hpp"
 #include "core/cpu.hpp"
+#include "shade/output.hpp"
 #include "shade/shading.hpp"
 #include "tests/kernel_packet.hpp"
 
@@ -113,11 +114,12 @@ struct Tile {
     }
 
     void run_machine(const KernelTable& table, std::vector<std::uint32_t>& pixels) {
+        const OutputTile tile{StoreFormat::rgba8, pixels.data(), nullptr, nullptr};
         for (PacketMemory& memory : packets) {
             Packet packet = memory.view();
             packet.planes = planes.data();
-            shade_packet(shading, table, AttributesCtx{}, StoreFormat::rgba8, pixels.data(),
-                         packet);
+            shade_packet(shading, table, AttributesCtx{}, packet);
+            write_pixels(shading.program.result, shading.program.numbers, {}, table, tile, packet);
         }
     }
     void run_fused(FusedLobeKernel kernel, std::vector<std::uint32_t>& pixels) {

@@ -192,6 +192,41 @@ bool are_consecutive(const std::uint16_t* pixels) {
     return four[0] == first && four[1] == first + 0x0004000400040004U;
 }
 
+/// Pixels of kLanes fragments, four bytes each: zipping keeps to the lanes, so fragments
+/// 8 p .. 8 p + 3 are in the low half and the next four in the high one.
+struct Pixels8 {
+    alignas(64) std::int16_t half[2][kLanes];
+};
+
+/// The first `used` of them to the tile.
+inline void put_pixels(const Pixels8& from, const std::uint16_t* pixels, int used,
+                       std::uint32_t* tile) {
+    const auto put = [&](const std::int16_t* pixel, int k) {
+        __builtin_memcpy(tile + pixels[k], pixel, 4);
+    };
+    int part = 0;
+    for (; part + 8 <= used; part += 8) {
+        const std::int16_t *low = from.half[0] + part, *high = from.half[1] + part;
+        if (are_consecutive(pixels + part)) {
+            std::uint32_t* const to = tile + pixels[part];
+            __builtin_memcpy(to, low, 16);
+            __builtin_memcpy(to + 4, high, 16);
+            continue;
+        }
+        put(low, part);
+        put(low + 2, part + 1);
+        put(low + 4, part + 2);
+        put(low + 6, part + 3);
+        put(high, part + 4);
+        put(high + 2, part + 5);
+        put(high + 4, part + 6);
+        put(high + 6, part + 7);
+    }
+    for (int k = part; k < used; ++k) {
+        put(from.half[(k - part) / 4] + part + (k - part) % 4 * 2, k);
+    }
+}
+
 template <class Model>
 void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
     const std::int16_t* plane[4];
@@ -202,34 +237,10 @@ void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
     for (int i = 0; i < count; i += kLanes) {
         const I16 rg = Model::to_u8(load(plane[0] + i)) | (Model::to_u8(load(plane[1] + i)) << 8);
         const I16 ba = Model::to_u8(load(plane[2] + i)) | (Model::to_u8(load(plane[3] + i)) << 8);
-        // Zipping keeps to the lanes: fragments 8 p .. 8 p + 3 are in the low half, the next four
-        // in the high one.
-        alignas(64) std::int16_t half[2][kLanes];
-        store(half[0], zip_lo16(rg, ba));
-        store(half[1], zip_hi16(rg, ba));
-        const auto put = [&](const std::int16_t* from, int k) {
-            __builtin_memcpy(tile + pixels[i + k], from, 4);
-        };
-        const int used = count - i < kLanes ? count - i : kLanes;
-        int part = 0;
-        for (; part + 8 <= used; part += 8) {
-            const std::int16_t *low = half[0] + part, *high = half[1] + part;
-            if (are_consecutive(pixels + i + part)) {
-                std::uint32_t* const to = tile + pixels[i + part];
-                __builtin_memcpy(to, low, 16);
-                __builtin_memcpy(to + 4, high, 16);
-                continue;
-            }
-            put(low, part);
-            put(low + 2, part + 1);
-            put(low + 4, part + 2);
-            put(low + 6, part + 3);
-            put(high, part + 4);
-            put(high + 2, part + 5);
-            put(high + 4, part + 6);
-            put(high + 6, part + 7);
-        }
-        for (int k = part; k < used; ++k) put(half[(k - part) / 4] + part + (k - part) % 4 * 2, k);
+        Pixels8 out;
+        store(out.half[0], zip_lo16(rg, ba));
+        store(out.half[1], zip_hi16(rg, ba));
+        put_pixels(out, pixels + i, count - i < kLanes ? count - i : kLanes, tile);
     }
 }
 

@@ -20,6 +20,9 @@ namespace {
 #include "kernels/transform.inl"
 #include "kernels/words.inl"
 
+#include "kernels/blend.inl"  // after final.inl: what it blends is what store writes
+#include "kernels/fragment_tests.inl"
+
 #define BURNISH_STRINGIFY_(x) #x
 #define BURNISH_STRINGIFY(x) BURNISH_STRINGIFY_(x)
 

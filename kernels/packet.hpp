@@ -11,6 +11,9 @@ inline constexpr int kBlockSize = 8;                          ///< pixels, both 
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;  ///< 64
 inline constexpr int kTileBlocks = kTilePixels / kBlockPixels;
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
+/// In a packet's list of pixels: a fragment that is shaded and not stored. What the pixels of a
+/// tile go to has room for one more at this index, which may hold anything.
+inline constexpr std::uint16_t kNoPixel = kTilePixels;
 
 /// Fragments in a packet, at most. 256 keep the live planes of a program within 24 KB; smaller
 /// packets pay for store forwarding between stages (docs/architecture.md).
@@ -28,13 +31,15 @@ inline constexpr int kAttributeStride = kPacketSize + 16;
 /// Fragments of one material and tile, structure of arrays; one worker's scratch memory. All
 /// pointers but `pixels` are aligned to 64 bytes.
 struct Packet {
-    int count;                    ///< fragments in use, 1 .. kPacketSize
-    const std::uint16_t* pixels;  ///< index within the tile, 0 .. kTilePixels - 1; no two alike
-    float* attributes;            ///< plane k begins at attributes + k * kAttributeStride
-    std::int16_t* planes;         ///< register plane k begins at planes + k * kPacketSize
-    std::int32_t* texel;          ///< byte offset of the upper left texel from the first one
-    std::int16_t* weight_x;       ///< of the right texels, 0 .. 255: 1/256
-    std::int16_t* weight_y;       ///< of the lower texels, 0 .. 255: 1/256
+    int count;  ///< fragments in use, 1 .. kPacketSize
+    /// Index within the tile, 0 .. kTilePixels - 1. Of those that are stored no two are alike; the
+    /// others have kNoPixel once colours are stored.
+    const std::uint16_t* pixels;
+    float* attributes;       ///< plane k begins at attributes + k * kAttributeStride
+    std::int16_t* planes;    ///< register plane k begins at planes + k * kPacketSize
+    std::int32_t* texel;     ///< byte offset of the upper left texel from the first one
+    std::int16_t* weight_x;  ///< of the right texels, 0 .. 255: 1/256
+    std::int16_t* weight_y;  ///< of the lower texels, 0 .. 255: 1/256
 };
 
 }  // namespace burnish

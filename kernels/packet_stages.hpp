@@ -273,7 +273,82 @@ enum class StoreFormat : std::uint8_t { rgba8, rgba16, rgba32f };
 struct StoreCtx {
     std::int16_t plane[4];
     StoreFormat format;
-    void* tile;  ///< kTilePixels pixels
+    void* tile;  ///< kTilePixels + 1 pixels
+};
+
+/// What a colour is multiplied with before it is blended. The factor of a channel c is
+/// zero: 0; the colour of the fragment or of the pixel: its channel c; their alpha: channel 3; the
+/// constant: its channel c. `inverted`: 1 - that, so that zero becomes 1.
+enum class BlendOperand : std::uint8_t {
+    zero,
+    source_color,
+    source_alpha,
+    destination_color,
+    destination_alpha,
+    constant_color,
+};
+struct BlendFactorCtx {
+    BlendOperand operand;
+    std::uint8_t inverted;
+};
+
+/// With s of the fragment, d of the pixel and their factors fs and fd: s fs + d fd, s fs - d fd,
+/// d fd - s fs, or the smaller or larger of s and d, whatever the factors are.
+enum class BlendSum : std::uint8_t { add, subtract, reverse_subtract, min, max };
+
+/// Codes of four planes, as StoreCtx takes them, blended with the pixels of the tile. s, d, factors
+/// and result are values of the frame; all four channels alike.
+/// rgba8, rgba16: with N = 255 or 65535 standing for 1, floor(p / N + 1/2) for the exact sum or
+///   difference p of products, then clamped to 0 .. N: one rounding.
+/// rgba32f: both products rounded, then their sum or difference, then min(max(p, 0), 1).
+/// The constant's codes are int(constant * float(N) + 0.5).
+/// Only fragments 0 .. count - 1 are written.
+struct BlendCtx {
+    std::int16_t plane[4];
+    StoreFormat format;
+    BlendSum sum;
+    BlendFactorCtx source, destination;
+    float constant[4];  ///< 0 .. 1
+    void* tile;         ///< kTilePixels + 1 pixels
+};
+
+// Fragment tests take the packet's own list of pixels, which they write to, besides Packet::pixels:
+// a fragment that fails gets kNoPixel in `stored`; what is kNoPixel already stays so.
+
+/// Lives where the plane's code is below, equal to or above the reference and that passes.
+struct AlphaTestCtx {
+    std::int16_t plane;
+    std::int16_t reference;
+    std::uint8_t pass_less, pass_equal, pass_greater;
+    std::uint16_t* stored;  ///< kPacketSize, aligned to 64 bytes
+};
+
+/// Lives where the attribute plane is > 0; a NaN is not.
+struct KeepCtx {
+    int attribute;
+    std::uint16_t* stored;  ///< kPacketSize, aligned to 64 bytes
+};
+
+/// Depth of consecutive fragments of one triangle: as RasterizeCtx has it for TileTriangle.
+struct DepthRun {
+    float z, zx, zy;
+    float z_low, z_high;
+    int first, count;                 ///< fragments of the packet
+    std::int32_t offset_x, offset_y;  ///< tile pixel (0, 0) minus the reference pixel
+};
+
+/// The depth test after shading, of fragments that are still alive: with the triangle's depth, or
+/// with an attribute plane's, whose values outside [0, 1] and NaN drop the fragment. A fragment
+/// that passes replaces the depth if `write`, and then raises block_far of its block if it is
+/// above.
+struct LateDepthCtx {
+    const DepthRun* runs;  ///< cover fragments 0 .. count - 1 in order
+    int run_count;
+    int attribute;  ///< plane of the fragments' own depths, or -1
+    std::uint8_t pass_less, pass_equal, pass_greater, write;
+    float* depth;           ///< kTilePixels
+    float* block_far;       ///< kTileBlocks, upper bounds of the depths of each block
+    std::uint16_t* stored;  ///< kPacketSize, aligned to 64 bytes
 };
 
 }  // namespace burnish

@@ -127,13 +127,34 @@ struct AnyRule {
     static bool writes(const TileTriangle& t) { return t.depth_write != 0; }
 };
 
-/// Coverage, depth test and visibility of one block; `Crossed`: an edge runs through it. True if a
-/// fragment passed.
-template <bool Crossed, class Rule>
-inline bool draw_block(const TileTriangle& t, const TriangleEdges& edges, int x, int y,
-                       float* depth, std::uint32_t* id) {
+/// Fragments that pass leave the triangle's id; whether there were any.
+struct LeaveId {
+    LeaveId(const TileTriangle& t, std::uint32_t* block_id)
+        : new_id(static_cast<std::int32_t>(t.id)),
+          any(false),
+          id(reinterpret_cast<std::int32_t*>(block_id)) {}
+    void take(int v, Mask32 write) {
+        any = any | write;
+        std::int32_t* const ids = id + v * kLanes32;
+        store(ids, ::xsimd::select(write, new_id, load(ids)));
+    }
+    I32 new_id;
+    Mask32 any;
+    std::int32_t* id;
+};
+/// Fragments that pass leave a bit.
+struct LeaveBit {
+    void take(int v, Mask32 write) {
+        passed |= static_cast<std::uint64_t>(bits(write)) << (v * kLanes32);
+    }
+    std::uint64_t passed = 0;
+};
+
+/// Coverage and depth test of one block; `Crossed`: an edge runs through it.
+template <bool Crossed, class Rule, class Trace>
+inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x, int y,
+                       float* depth, Trace& trace) {
     const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
-    const I32 new_id(static_cast<std::int32_t>(t.id));
     const F32 lanes_y = to_float(lane_y()) + F32(static_cast<float>(y + t.offset_y));
     F32 z_row[kRowVectors];
     for (int k = 0; k < kRowVectors; ++k) {
@@ -150,7 +171,6 @@ inline bool draw_block(const TileTriangle& t, const TriangleEdges& edges, int x,
         first = above / kVectorRows * kRowVectors;
         end = (last_row / kVectorRows + 1) * kRowVectors;
     }
-    Mask32 any(false);
     for (int v = first; v < end; ++v) {
         // Whole numbers below 2^24: exact, however they are added.
         const F32 dy = lanes_y + F32(static_cast<float>(v / kRowVectors * kVectorRows));
@@ -162,14 +182,11 @@ inline bool draw_block(const TileTriangle& t, const TriangleEdges& edges, int x,
                                 (base[2] + edges.lanes[2][v]);
             write = write & (outside >= I32(0));
         }
-        any = any | write;
-        auto* ids = reinterpret_cast<std::int32_t*>(id) + v * kLanes32;
-        store(ids, ::xsimd::select(write, new_id, load(ids)));
+        trace.take(v, write);
         if (Rule::writes(t)) {
             store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
         }
     }
-    return bits(any) != 0;
 }
 
 /// Upper bound of a block's depths after the triangle was drawn in it.
@@ -198,9 +215,10 @@ std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx)
         const bool crossed = (masks.crossed >> block & 1) != 0;
         float* const depth = ctx.depth + block * kBlockPixels;
         std::uint32_t* const id = ctx.id + block * kBlockPixels;
-        const bool passed = crossed ? draw_block<true, Rule>(t, edges, x, y, depth, id)
-                                    : draw_block<false, Rule>(t, edges, x, y, depth, id);
-        drawn |= static_cast<std::uint64_t>(passed ? 1 : 0) << block;
+        LeaveId trace(t, id);
+        crossed ? draw_block<true, Rule>(t, edges, x, y, depth, trace)
+                : draw_block<false, Rule>(t, edges, x, y, depth, trace);
+        drawn |= static_cast<std::uint64_t>(bits(trace.any) != 0 ? 1 : 0) << block;
         float& far = ctx.block_far[block];
         far = updated_far(t, x, y, !crossed, far);
     }
@@ -215,6 +233,42 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
         ctx.drawn[i] =
             usual ? rasterize_triangle<NearerWins>(t, ctx) : rasterize_triangle<AnyRule>(t, ctx);
     }
+}
+
+/// Pixels of the block at (x, y) that lie in the triangle's bounding box: what of the block lies
+/// outside the frame does not.
+inline std::uint64_t box_pixels(const TileTriangle& t, int x, int y) {
+    constexpr int kLast = kBlockSize - 1;
+    const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kLast ? t.x1 - x : kLast;
+    const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kLast ? t.y1 - y : kLast;
+    const std::uint64_t columns = (0xffU >> (kLast - x1)) & (0xffU << x0);
+    const std::uint64_t rows = (~std::uint64_t{0} >> (kBlockSize * (kLast - y1))) &
+                               (~std::uint64_t{0} << (kBlockSize * y0));
+    return (columns & 0xffU) * 0x0101010101010101U & rows;
+}
+
+void cover(const CoverCtx& ctx) noexcept {
+    const TileTriangle& t = *ctx.triangle;
+    TriangleEdges edges;
+    set_edges(t, edges);
+    const BlockMasks masks = classify_blocks(t, edges, ctx.block_far);
+    std::uint64_t blocks = 0;
+    for (std::uint64_t rest = masks.touched; rest != 0; rest &= rest - 1) {
+        const int block = __builtin_ctzll(rest);
+        const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
+        const bool crossed = (masks.crossed >> block & 1) != 0;
+        float* const depth = ctx.depth + block * kBlockPixels;
+        LeaveBit trace;
+        crossed ? draw_block<true, AnyRule>(t, edges, x, y, depth, trace)
+                : draw_block<false, AnyRule>(t, edges, x, y, depth, trace);
+        float& far = ctx.block_far[block];
+        far = updated_far(t, x, y, !crossed, far);
+        const std::uint64_t passed = trace.passed & box_pixels(t, x, y);
+        if (passed == 0) continue;
+        ctx.passed[block] = passed;
+        blocks |= std::uint64_t{1} << block;
+    }
+    *ctx.blocks = blocks;
 }
 
 /// Set bits of a byte as 16-bit positions, packed to the front; a table of 256 rows of 16 bytes.

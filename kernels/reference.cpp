@@ -101,10 +101,20 @@ bool covers(const TileTriangle& t, int x, int y) {
     return true;
 }
 
-float depth_at(const TileTriangle& t, int x, int y) {
+/// Of a TileTriangle or a DepthRun.
+template <class Triangle>
+float depth_at(const Triangle& t, int x, int y) {
     const auto dx = static_cast<float>(x + t.offset_x);
     const auto dy = static_cast<float>(y + t.offset_y);
     return minimum(maximum((t.z + dx * t.zx) + dy * t.zy, t.z_low), t.z_high);
+}
+
+/// A depth test, of TileTriangle or LateDepthCtx.
+template <class Rule>
+bool passes(const Rule& rule, float depth, float old) {
+    return depth < old   ? rule.pass_less != 0
+           : depth > old ? rule.pass_greater != 0
+                         : rule.pass_equal != 0;
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
@@ -116,11 +126,7 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
                 if (!covers(t, x, y)) continue;
                 const int pixel = tile_index(x, y);
                 const float depth = depth_at(t, x, y);
-                const float old = ctx.depth[pixel];
-                const bool pass = depth < old   ? t.pass_less != 0
-                                  : depth > old ? t.pass_greater != 0
-                                                : t.pass_equal != 0;
-                if (!pass) continue;
+                if (!passes(t, depth, ctx.depth[pixel])) continue;
                 ctx.id[pixel] = t.id;
                 ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
                 if (t.depth_write != 0) ctx.depth[pixel] = depth;
@@ -130,6 +136,29 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int block = 0; block < kTileBlocks; ++block) {
         const float* depth = ctx.depth + block * kBlockPixels;
         ctx.block_far[block] = *std::max_element(depth, depth + kBlockPixels);
+    }
+}
+
+void cover(const CoverCtx& ctx) noexcept {
+    const TileTriangle& t = *ctx.triangle;
+    std::uint64_t passed[kTileBlocks] = {};
+    *ctx.blocks = 0;
+    for (int y = t.y0; y <= t.y1; ++y) {
+        for (int x = t.x0; x <= t.x1; ++x) {
+            if (!covers(t, x, y)) continue;
+            const int pixel = tile_index(x, y), block = pixel / kBlockPixels;
+            const float depth = depth_at(t, x, y);
+            if (!passes(t, depth, ctx.depth[pixel])) continue;
+            passed[block] |= std::uint64_t{1} << pixel % kBlockPixels;
+            if (t.depth_write != 0) ctx.depth[pixel] = depth;
+        }
+    }
+    for (int block = 0; block < kTileBlocks; ++block) {
+        const float* depth = ctx.depth + block * kBlockPixels;
+        ctx.block_far[block] = *std::max_element(depth, depth + kBlockPixels);
+        if (passed[block] == 0) continue;
+        ctx.passed[block] = passed[block];
+        *ctx.blocks |= std::uint64_t{1} << block;
     }
 }
 
@@ -760,6 +789,161 @@ void store(Packet& packet, const StoreCtx& ctx) noexcept {
     }
 }
 
+// ---- blending
+
+/// A channel of a frame of whole numbers, `One` of which are 1.
+template <class Channel, Int One>
+struct WholeFrame {
+    using Value = Int;
+    static constexpr Int kOne = One;
+    template <class Model>
+    static Int of_code(Int v) {
+        return sizeof(Channel) == 1 ? Model::to_8_bits(v) : Model::to_16_bits(v);
+    }
+    static Int of_constant(float x) { return static_cast<Int>(x * static_cast<float>(One) + 0.5F); }
+    static Int sum(Int a, Int fa, Int b, Int fb) { return rounded(a * fa + b * fb); }
+    static Int difference(Int a, Int fa, Int b, Int fb) { return rounded(a * fa - b * fb); }
+    /// floor(p / One + 1/2) = floor((2 p + One) / (2 One)); negative ones are clamped anyhow.
+    static Int rounded(Int p) { return p <= 0 ? 0 : std::min((2 * p + One) / (2 * One), One); }
+};
+struct FloatFrame {
+    using Value = float;
+    static constexpr float kOne = 1.0F;
+    template <class Model>
+    static float of_code(Int v) {
+        return static_cast<float>(v) / static_cast<float>(Model::kOne);
+    }
+    static float of_constant(float x) { return x; }
+    static float sum(float a, float fa, float b, float fb) {
+        return minimum(maximum(a * fa + b * fb, 0.0F), 1.0F);
+    }
+    static float difference(float a, float fa, float b, float fb) {
+        return minimum(maximum(a * fa - b * fb, 0.0F), 1.0F);
+    }
+};
+
+template <class Frame>
+typename Frame::Value blend_factor(const BlendFactorCtx& factor, int c,
+                                   const typename Frame::Value* source,
+                                   const typename Frame::Value* destination,
+                                   const float* constant) {
+    typename Frame::Value f = 0;
+    switch (factor.operand) {
+        case BlendOperand::zero:
+            break;
+        case BlendOperand::source_color:
+            f = source[c];
+            break;
+        case BlendOperand::source_alpha:
+            f = source[3];
+            break;
+        case BlendOperand::destination_color:
+            f = destination[c];
+            break;
+        case BlendOperand::destination_alpha:
+            f = destination[3];
+            break;
+        case BlendOperand::constant_color:
+            f = Frame::of_constant(constant[c]);
+            break;
+    }
+    return factor.inverted != 0 ? Frame::kOne - f : f;
+}
+
+template <class Model, class Channel, class Frame>
+void blend_frame(const Packet& packet, const BlendCtx& ctx) {
+    using Value = typename Frame::Value;
+    for (int i = 0; i < packet.count; ++i) {
+        std::byte* const at = static_cast<std::byte*>(ctx.tile) +
+                              static_cast<std::size_t>(packet.pixels[i]) * 4 * sizeof(Channel);
+        Channel pixel[4];
+        std::memcpy(pixel, at, sizeof pixel);
+        Value s[4], d[4];
+        for (int c = 0; c < 4; ++c) {
+            s[c] = Frame::template of_code<Model>(plane(packet, ctx.plane[c])[i]);
+            d[c] = static_cast<Value>(pixel[c]);
+        }
+        for (int c = 0; c < 4; ++c) {
+            const Value fs = blend_factor<Frame>(ctx.source, c, s, d, ctx.constant);
+            const Value fd = blend_factor<Frame>(ctx.destination, c, s, d, ctx.constant);
+            Value result = 0;
+            switch (ctx.sum) {
+                case BlendSum::add:
+                    result = Frame::sum(s[c], fs, d[c], fd);
+                    break;
+                case BlendSum::subtract:
+                    result = Frame::difference(s[c], fs, d[c], fd);
+                    break;
+                case BlendSum::reverse_subtract:
+                    result = Frame::difference(d[c], fd, s[c], fs);
+                    break;
+                case BlendSum::min:
+                    result = s[c] < d[c] ? s[c] : d[c];
+                    break;
+                case BlendSum::max:
+                    result = s[c] > d[c] ? s[c] : d[c];
+                    break;
+            }
+            pixel[c] = static_cast<Channel>(result);
+        }
+        std::memcpy(at, pixel, sizeof pixel);
+    }
+}
+
+template <class Model>
+void blend(Packet& packet, const BlendCtx& ctx) noexcept {
+    switch (ctx.format) {
+        case StoreFormat::rgba8:
+            return blend_frame<Model, std::uint8_t, WholeFrame<std::uint8_t, 255>>(packet, ctx);
+        case StoreFormat::rgba16:
+            return blend_frame<Model, std::uint16_t, WholeFrame<std::uint16_t, 65535>>(packet, ctx);
+        case StoreFormat::rgba32f:
+            return blend_frame<Model, float, FloatFrame>(packet, ctx);
+    }
+}
+
+// ---- fragment tests
+
+void alpha_test(Packet& packet, const AlphaTestCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const std::int16_t alpha = plane(packet, ctx.plane)[i];
+        const bool pass = alpha < ctx.reference   ? ctx.pass_less != 0
+                          : alpha > ctx.reference ? ctx.pass_greater != 0
+                                                  : ctx.pass_equal != 0;
+        if (!pass) ctx.stored[i] = kNoPixel;
+    }
+}
+
+void keep(Packet& packet, const KeepCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        if (!(attribute(packet, ctx.attribute)[i] > 0.0F)) ctx.stored[i] = kNoPixel;
+    }
+}
+
+void late_depth(Packet& packet, const LateDepthCtx& ctx) noexcept {
+    for (int r = 0; r < ctx.run_count; ++r) {
+        const DepthRun& run = ctx.runs[r];
+        for (int i = run.first; i < run.first + run.count; ++i) {
+            const int pixel = ctx.stored[i];
+            if (pixel == kNoPixel) continue;
+            float depth = depth_at(run, tile_x(pixel), tile_y(pixel));
+            bool lives = true;
+            if (ctx.attribute >= 0) {
+                depth = attribute(packet, ctx.attribute)[i];
+                lives = depth >= 0.0F && depth <= 1.0F;
+            }
+            if (!lives || !passes(ctx, depth, ctx.depth[pixel])) {
+                ctx.stored[i] = kNoPixel;
+                continue;
+            }
+            if (ctx.write == 0) continue;
+            ctx.depth[pixel] = depth;
+            float& far = ctx.block_far[pixel / kBlockPixels];
+            far = maximum(depth, far);
+        }
+    }
+}
+
 }  // namespace
 
 const KernelTable& table_reference() noexcept {
@@ -768,6 +952,7 @@ const KernelTable& table_reference() noexcept {
         .lanes = 1,
         .transform = transform,
         .rasterize = rasterize,
+        .cover = cover,
         .collect = collect,
         .attributes = attributes,
         .lighting = lighting,
@@ -791,6 +976,11 @@ const KernelTable& table_reference() noexcept {
         .final_wide = final_combiner<Wide>,
         .store_nine_bit = store<NineBit>,
         .store_wide = store<Wide>,
+        .blend_nine_bit = blend<NineBit>,
+        .blend_wide = blend<Wide>,
+        .alpha_test = alpha_test,
+        .keep = keep,
+        .late_depth = late_depth,
     };
     return table;
 }

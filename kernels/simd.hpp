@@ -179,6 +179,14 @@ inline I16 broadcast_lane(const void* p) {
     return _mm512_broadcast_i32x4(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
 
+/// Lane k from p[k].
+inline I16 load_lanes(const void* const* p) {
+    const auto lane = [&](int k) { return _mm_loadu_si128(static_cast<const __m128i*>(p[k])); };
+    const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(lane(0)), lane(1), 1);
+    const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(lane(2)), lane(3), 1);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+
 #elif defined(__AVX2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -260,6 +268,11 @@ inline I16 broadcast_lane(const void* p) {
     return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
 
+inline I16 load_lanes(const void* const* p) {
+    const auto lane = [&](int k) { return _mm_loadu_si128(static_cast<const __m128i*>(p[k])); };
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(lane(0)), lane(1), 1);
+}
+
 #elif defined(__SSE4_2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -338,6 +351,10 @@ inline I32 look_up(const std::int32_t* table, I32 index) {
 }
 inline I16 broadcast_lane(const void* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p));
+}
+
+inline I16 load_lanes(const void* const* p) {
+    return _mm_loadu_si128(static_cast<const __m128i*>(p[0]));
 }
 
 #elif defined(__aarch64__)
@@ -425,6 +442,9 @@ inline I32 look_up(const std::int32_t* table, I32 index) {
 }
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));
+}
+inline I16 load_lanes(const void* const* p) {
+    return vld1q_s16(static_cast<const int16_t*>(p[0]));
 }
 
 #else

@@ -10,6 +10,7 @@
 #define BURNISH_TILE_STAGES(X) \
     X(transform, TransformCtx) \
     X(rasterize, RasterizeCtx) \
+    X(cover, CoverCtx)         \
     X(collect, CollectCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
@@ -35,4 +36,9 @@
     X(final_nine_bit, FinalCtx)           \
     X(final_wide, FinalCtx)               \
     X(store_nine_bit, StoreCtx)           \
-    X(store_wide, StoreCtx)
+    X(store_wide, StoreCtx)               \
+    X(blend_nine_bit, BlendCtx)           \
+    X(blend_wide, BlendCtx)               \
+    X(alpha_test, AlphaTestCtx)           \
+    X(keep, KeepCtx)                      \
+    X(late_depth, LateDepthCtx)

@@ -101,6 +101,17 @@ struct RasterizeCtx {
     std::uint64_t* drawn;  ///< out, `count` elements
 };
 
+/// One triangle's coverage and depth as RasterizeCtx has them, for draws that need order: in place
+/// of an id every pixel of the bounding box that passes sets its bit, bit i of word k for pixel
+/// 64 k + i. Depths outside the bounding box may be anything afterwards.
+struct CoverCtx {
+    const TileTriangle* triangle;
+    float* depth;           ///< kTilePixels
+    float* block_far;       ///< kTileBlocks
+    std::uint64_t* passed;  ///< out, kTileBlocks; words without a bit are not written
+    std::uint64_t* blocks;  ///< out: bit k: passed[k] is not 0
+};
+
 /// Visible fragments of a tile, triangle after triangle, block after block, rising in each block.
 /// The visibility buffer shows triangles 0 .. count - 1; where it shows something else, nothing is
 /// listed.

@@ -46,33 +46,6 @@ std::vector<std::uint32_t> triangle_indices(Topology topology, std::uint32_t cou
     return out;
 }
 
-DepthRule depth_rule(const RasterState& state) {
-    const auto rule = [&](int less, int equal, int greater) {
-        return DepthRule{static_cast<std::uint8_t>(less), static_cast<std::uint8_t>(equal),
-                         static_cast<std::uint8_t>(greater),
-                         static_cast<std::uint8_t>(state.depth_write ? 1 : 0)};
-    };
-    switch (state.depth_test) {
-        case DepthTest::never:
-            return rule(0, 0, 0);
-        case DepthTest::less:
-            return rule(1, 0, 0);
-        case DepthTest::equal:
-            return rule(0, 1, 0);
-        case DepthTest::lequal:
-            return rule(1, 1, 0);
-        case DepthTest::greater:
-            return rule(0, 0, 1);
-        case DepthTest::notequal:
-            return rule(1, 0, 1);
-        case DepthTest::gequal:
-            return rule(0, 1, 1);
-        case DepthTest::always:
-            return rule(1, 1, 1);
-    }
-    return rule(0, 0, 0);
-}
-
 Facing facing_of(Cull cull) {
     switch (cull) {
         case Cull::none:
@@ -140,6 +113,25 @@ void transform_raw(Draw& draw, const FrameView& frame, const Object& object,
     }
 }
 
+void prepare_shading(Shading& shading, const FrameView& frame, const Object& object,
+                     const ProgramMaterial& program, const Wanted& wanted) {
+    const auto* mesh = std::get_if<Mesh>(&object.geometry);
+    shading.space = light_space(light_of(*frame.scene), frame.view, object.world_from_object);
+    shading.lit = {program.lit_tint, program.lit_base};
+    plan_shading(shading, program, frame.scene->machine, mesh != nullptr, wanted);
+    shading.frames = mesh != nullptr ? mesh->frames() : std::span<const VertexFrame>{};
+}
+
+void transform_varyings(Shading& shading, const Object& object, WorkerPool& pool) {
+    if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
+        mesh_varyings(mesh->frames(), shading.varying_list, shading.space, shading.lit, pool,
+                      shading.varyings);
+    } else {
+        raw_varyings(std::get<RawVertices>(object.geometry).vertices, shading.varying_list,
+                     shading.program.numbers, shading.varyings);
+    }
+}
+
 }  // namespace
 
 ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps) {
@@ -160,48 +152,55 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {
     ProgramMaterial program = program_of(object, *frame.scene, maps);
-    Wanted wanted;
-    if (frame.shown) wanted = show_register(program.combiners, *frame.shown, frame.format);
-    prepare_draw(draw, frame, object, program, wanted);
+    prepare_draw(draw, frame, object, program, {});
+    if (!frame.shown) return;
+    // Tests that follow shading need the whole program first.
+    const bool tested = draw.output.late_depth;
+    const Wanted wanted = show_register(program.combiners, *frame.shown, frame.format);
+    if (tested) draw.shown.emplace();
+    prepare_shading(tested ? draw.shown->values : draw.shading, frame, object, program, wanted);
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
                   const ProgramMaterial& program, const Wanted& wanted) {
-    const LightSpace space =
-        light_space(light_of(*frame.scene), frame.view, object.world_from_object);
-    const auto* mesh = std::get_if<Mesh>(&object.geometry);
     draw.facing = facing_of(object.raster.cull);
-    draw.depth = depth_rule(object.raster);
-    draw.shading.space = space;
-    draw.shading.lit = {program.lit_tint, program.lit_base};
-    plan_shading(draw.shading, program, frame.scene->machine, mesh != nullptr, wanted);
-    if (mesh != nullptr) {
+    prepare_shading(draw.shading, frame, object, program, wanted);
+    plan_fragments(draw, frame, object);
+    if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
         draw.indices = mesh->indices();
-        draw.shading.frames = mesh->frames();
     } else {
         const auto& raw = std::get<RawVertices>(object.geometry);
         draw.own_indices =
             triangle_indices(raw.topology, static_cast<std::uint32_t>(raw.vertices.size()));
         draw.indices = draw.own_indices;
-        draw.shading.frames = {};
     }
+}
+
+void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
+    const DepthRule depth = comparison_rule(object.raster.depth_test, object.raster.depth_write);
+    // What is shown instead of colours is that of the last fragment: nothing is blended.
+    const bool shows_colors = !frame.shown && !frame.aov;
+    draw.output = plan_output(draw.shading, shows_colors ? object.raster.blend : std::nullopt,
+                              object.material ? object.material->alpha_test : AlphaTest{}, depth);
+    draw.depth = early_rule(draw.shading, draw.output);
+    draw.ordered = needs_order(draw.output);
+    draw.shown.reset();
+    if (frame.aov) draw.shown = shown_values(*frame.aov, object);
 }
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
                     const KernelTable& kernels, WorkerPool& pool) {
-    Shading& shading = draw.shading;
+    transform_varyings(draw.shading, object, pool);
+    if (draw.shown && !draw.shown->aov) transform_varyings(draw.shown->values, object, pool);
     if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
         draw.screen.resize(mesh->vertex_count());
         draw.homogeneous.resize(mesh->vertex_count());
         transform_mesh(draw, frame, object, *mesh, kernels, pool);
-        mesh_varyings(mesh->frames(), shading.varying_list, shading.space, shading.lit, pool,
-                      shading.varyings);
     } else {
         const auto& raw = std::get<RawVertices>(object.geometry);
         draw.screen.resize(raw.vertices.size());
         draw.homogeneous.resize(raw.vertices.size());
         transform_raw(draw, frame, object, raw);
-        raw_varyings(raw.vertices, shading.varying_list, shading.program.numbers, shading.varyings);
     }
 }
 

@@ -14,7 +14,9 @@
 #include "models/abp_modified.hpp"
 #include "raster/setup.hpp"
 #include "raster/tile.hpp"
+#include "shade/output.hpp"
 #include "shade/shading.hpp"
+#include "shade/shown.hpp"
 
 namespace burnish {
 
@@ -26,7 +28,10 @@ struct Draw {
     std::span<const std::uint32_t> indices;
     Shading shading;
     Facing facing = Facing::any;
-    DepthRule depth{};
+    DepthRule depth{};  ///< before shading
+    FragmentOutput output;
+    bool ordered = false;              ///< fragments must be shaded in the order of submission
+    std::optional<ShownValues> shown;  ///< instead of colours
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
     [[nodiscard]] ScreenMesh mesh() const { return {screen, homogeneous, indices}; }
@@ -38,6 +43,7 @@ struct FrameView {
     View view;
     Viewport viewport;
     std::optional<ShownRegister> shown = {};
+    std::optional<Aov> aov = {};
     PixelFormat format = PixelFormat::rgba8;
 };
 
@@ -52,6 +58,9 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
 
 /// The same with the object's own program and what the frame shows of it.
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps);
+
+/// Depth test, alpha test and blending, as draw.shading, which is planned, calls for them.
+void plan_fragments(Draw& draw, const FrameView& frame, const Object& object);
 
 /// Vertices to the screen, and what they hand to the interpolators.
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,

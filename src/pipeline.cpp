@@ -40,6 +40,7 @@ struct Worker {
     TileVisibility visibility;
     PacketShader shader;
     TileImage image;
+    bool has_background = false;  ///< pixels that no fragment wrote are what they should be
     std::uint64_t tiles = 0;
 };
 
@@ -56,12 +57,14 @@ struct Renderer::State {
           memory_cap(options.memory_cap) {}
 
     void prepare(const Scene& scene, const Framebuffer& target,
-                 const std::optional<ShownRegister>& shown);
+                 const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
+    void shade_visible(Worker& worker);
+    void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const std::uint32_t> triangles);
     float* saved_depth(std::int32_t x, std::int32_t y);
 
     const KernelTable& kernels;
@@ -95,23 +98,28 @@ int Renderer::threads() const noexcept {
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
-    return render_shown(scene, target, std::nullopt);
+    return render_shown(scene, target, std::nullopt, std::nullopt);
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, const ShownRegister& shown) {
     require_showable(shown.reg, scene.machine);
-    return render_shown(scene, target, shown);
+    return render_shown(scene, target, shown, std::nullopt);
+}
+
+FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) {
+    return render_shown(scene, target, std::nullopt, shown);
 }
 
 /// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
 /// the memory cap, as many as fit; then the tiles are drawn and the next ones follow.
 FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
-                                  const std::optional<ShownRegister>& shown) {
+                                  const std::optional<ShownRegister>& shown,
+                                  std::optional<Aov> aov) {
     State& s = *m_state;
     FrameStats stats;
     try {
         const auto start = Clock::now();
-        s.prepare(scene, target, shown);
+        s.prepare(scene, target, shown, aov);
         s.transform(scene);
         stats.geometry_ms = milliseconds_since(start);
         for (bool first_round = true; first_round || s.next_range < s.ranges.size();
@@ -138,11 +146,15 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
 
 /// Camera, programs and raster state; the list of chunks.
 void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
-                              const std::optional<ShownRegister>& shown) {
+                              const std::optional<ShownRegister>& shown, std::optional<Aov> aov) {
     scene.machine.validate();
     size = {target.width(), target.height()};
-    frame = {&scene, make_view(scene.camera, size.width, size.height),
-             make_viewport(scene.machine, size.width, size.height), shown, target.format()};
+    frame = {&scene,
+             make_view(scene.camera, size.width, size.height),
+             make_viewport(scene.machine, size.width, size.height),
+             shown,
+             aov,
+             target.format()};
     while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
     draws.resize(scene.objects.size());
     ranges.clear();
@@ -166,7 +178,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     }
     for (const auto& worker : workers) {
         worker->tiles = 0;
-        worker->image.set_background(scene.background);
+        worker->image.set_background(aov ? background_of(*aov) : scene.background);
         worker->shader.reset_count();
     }
 }
@@ -178,7 +190,8 @@ void Renderer::State::transform(const Scene& scene) {
         Draw& draw = *draws[i];
         transform_draw(draw, frame, scene.objects[i], kernels, pool);
         depth_rules.push_back(draw.depth);
-        shaded_draws.push_back({&draw.shading, draw.mesh()});
+        shaded_draws.push_back(
+            {&draw.shading, &draw.output, draw.mesh(), draw.shown ? &*draw.shown : nullptr});
     }
 }
 
@@ -240,8 +253,9 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
     });
 }
 
-/// Everything of one tile, in one worker's cache: depth and visibility of all triangles, then the
-/// colours of what is visible over the background, then once to the frame.
+/// Everything of one tile, in one worker's cache, then once to the frame. Draws that need no order
+/// are shaded when all of them have been rasterized and it is known what they show; before one that
+/// needs order comes, what is visible so far is shaded, and its fragments follow one by one.
 void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                                 bool first_round, bool last_round) {
     TileVisibility& visibility = worker.visibility;
@@ -252,15 +266,55 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         return worker.image.resolve_empty(target, x * kTileSize, y * kTileSize);
     }
     visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
-    for (const auto& chunk : binned) visibility.draw(*chunk, depth_rules, kernels);
+    worker.has_background = false;
+    if (!first_round) {
+        worker.image.load(target, visibility.left(), visibility.top());
+        worker.has_background = true;
+    }
+    worker.shader.begin({visibility.left(),
+                         visibility.top(),
+                         {store_format(worker.image.format()), worker.image.pixels(),
+                          visibility.depth(), visibility.block_far()}});
+    for (const auto& chunk : binned) {
+        const std::span<const std::uint32_t> triangles = chunk->tile(x, y);
+        if (triangles.empty()) continue;
+        if (draws[chunk->triangles()[triangles.front()].draw]->ordered) {
+            shade_visible(worker);
+            visibility.forget();
+            draw_ordered(worker, *chunk, triangles);
+        } else {
+            worker.shader.flush(kernels);
+            visibility.draw(*chunk, depth_rules, kernels);
+        }
+    }
+    worker.shader.flush(kernels);
+    shade_visible(worker);
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
-    if (!first_round) worker.image.load(target, visibility.left(), visibility.top());
-    const TileFragments fragments = visibility.collect(kernels);
-    if (first_round && fragments.count < kTilePixels) worker.image.clear();
-    const ShadedTile tile{visibility.left(), visibility.top(), store_format(worker.image.format()),
-                          worker.image.pixels()};
-    worker.shader.shade(fragments, shaded_draws, tile, kernels);
     worker.image.resolve(target, visibility.left(), visibility.top());
+}
+
+/// Shades what the visibility buffer holds. Afterwards every pixel of the tile has a colour.
+void Renderer::State::shade_visible(Worker& worker) {
+    TileFragments fragments{};
+    if (worker.visibility.shows_anything()) fragments = worker.visibility.collect(kernels);
+    if (!worker.has_background && fragments.count < kTilePixels) worker.image.clear();
+    worker.has_background = true;
+    if (fragments.count == 0) return;
+    worker.shader.shade(fragments, shaded_draws, kernels);
+}
+
+/// The triangles of a chunk in this tile, one after the other.
+void Renderer::State::draw_ordered(Worker& worker, const Chunk& chunk,
+                                   std::span<const std::uint32_t> triangles) {
+    PixelMask passed;
+    worker.shader.start_draw(shaded_draws[chunk.triangles()[triangles.front()].draw], kernels);
+    for (const std::uint32_t i : triangles) {
+        const SetupTriangle& triangle = chunk.triangles()[i];
+        if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed)) {
+            continue;
+        }
+        worker.shader.add(triangle, passed, kernels);
+    }
 }
 
 }  // namespace burnish

@@ -180,6 +180,62 @@ TEST_F(HardwareFacts, H12SignedTexelsEnterAsTwiceTheirValue) {
     }
 }
 
+// 131,072 pixels: every alpha with every d in red, s and the other channels scattered.
+TEST_F(HardwareFacts, H13BlendingRoundsOnce) {
+    constexpr int kWidth = 512, kHeight = 256;
+    const auto destination = [](int x, int y, int c) {
+        return c == 0 ? y : (y * (2 * c + 3) + x * 7 + c * 90) % 256;
+    };
+    const auto source = [](int x, int y, int c) {
+        return c == 3 ? x % 256 : (x / 256 * 128 + x * 37 + y * (11 * c + 5) + c * 50) % 256;
+    };
+    const auto save = [&](const auto& code, const char* name) {
+        Framebuffer image(kWidth, kHeight);
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x)
+                for (int c = 0; c < 4; ++c)
+                    image.row(y)[4 * x + c] = static_cast<std::byte>(code(x, y, c));
+        save_image(image, path(name));
+    };
+    save(destination, "d.png");
+    save(source, "s.png");
+    std::string text = fmt::format(
+        "schema = 1\n[output]\nwidth = {}\nheight = {}\n[machine]\nprofile = \"nv2a\"\n", kWidth,
+        kHeight);
+    for (const char* name : {"d", "s"})
+        text += fmt::format(
+            "[[textures]]\nname = \"{0}\"\nfile = \"{0}.png\"\n"
+            "filter = \"nearest\"\n[[materials]]\nname = \"{0}\"\nunits = [\"{0}\"]\n"
+            "combiners_text = '!!RC1.0 out.rgb = tex0; out.a = tex0;'\n",
+            name);
+    for (const char* name : {"d", "s"}) {
+        text += fmt::format(
+            "[[objects]]\nmaterial = \"{}\"\nspace = \"window\"\n"
+            "primitive = \"quads\"\ndepth_test = \"always\"\nblend = \"{}\"\n"
+            "vertices = [\n",
+            name, name[0] == 's' ? "alpha" : "off");
+        for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+            text += fmt::format("{{ position = [{}, {}, 0.5], uv0 = [{}, {}] }},\n", x * kWidth,
+                                y * kHeight, x, y);
+        text += "]\n";
+    }
+    write(path("s.toml"), text);
+    const Scene scene = load_scene(path("s.toml")).scene;
+    Framebuffer frame(kWidth, kHeight);
+    Renderer().render(scene, frame);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const int a = source(x, y, 3);
+            for (int c = 0; c < 4; ++c) {
+                const int sum = source(x, y, c) * a + destination(x, y, c) * (255 - a);
+                ASSERT_EQ(pixel(frame, x, y)[static_cast<std::size_t>(c)],
+                          static_cast<int>(std::floor((sum + 127.5) / 255.0)))
+                    << x << ", " << y << ", channel " << c;
+            }
+        }
+    }
+}
+
 TEST_F(HardwareFacts, H14ColorsOfVerticesBecomeBytes) {
     const std::array<std::pair<const char*, int>, 10> pairs{{{"0.1", 25},
                                                              {"0.2", 51},

@@ -290,6 +290,53 @@ TEST_P(KernelTest, RasterizeOneByOneEqualsAllAtOnce) {
     }
 }
 
+// Bits instead of ids: what rasterize leaves of a triangle that is drawn alone, and its depths.
+TEST_P(KernelTest, CoverOfRandomTriangles) {
+    for (unsigned seed = 0; seed < 3000; ++seed) {
+        Random random(seed);
+        Tile got(random);
+        Tile want = got;
+        for (const TileTriangle& t : random_triangles(random, random.between(1, 6))) {
+            want.id.assign(kTilePixels, kNoTriangle);
+            want.drawn.clear();
+            want.run(table_reference(), {t});
+            std::array<std::uint64_t, kTileBlocks> passed{};
+            std::uint64_t blocks = ~std::uint64_t{0};
+            table().cover({&t, got.depth.data(), got.block_far.data(), passed.data(), &blocks});
+            ASSERT_EQ(blocks, want.drawn[0]) << name("cover") << ", seed " << seed;
+            got.id.assign(kTilePixels, kNoTriangle);
+            for (std::size_t i = 0; i < kTilePixels; ++i)
+                if ((passed[i / kBlockPixels] >> i % kBlockPixels & 1) != 0) got.id[i] = t.id;
+            got.drawn = want.drawn;
+            ASSERT_NO_FATAL_FAILURE(
+                expect_same(got, want, name("cover") + ", seed " + std::to_string(seed)));
+        }
+    }
+}
+
+// A frame that ends at pixel (36, 21) of the tile: the box does, too, and whole blocks do not
+// count.
+TEST_P(KernelTest, CoverStopsAtTheBoundingBox) {
+    Random random(0);
+    TileTriangle t{};
+    t.x0 = 3;
+    t.x1 = 36;
+    t.y0 = 9;
+    t.y1 = 21;
+    t.pass_less = t.pass_equal = 1;
+    Tile tile(random);
+    std::array<std::uint64_t, kTileBlocks> passed{};
+    std::uint64_t blocks = 0;
+    table().cover({&t, tile.depth.data(), tile.block_far.data(), passed.data(), &blocks});
+    for (int y = 0; y < kTileSize; ++y) {
+        for (int x = 0; x < kTileSize; ++x) {
+            const auto block = static_cast<std::size_t>(y / 8 * 8 + x / 8);
+            const bool inside = x >= 3 && x <= 36 && y >= 9 && y <= 21;
+            ASSERT_EQ((passed[block] >> (y % 8 * 8 + x % 8) & 1) != 0, inside) << x << ", " << y;
+        }
+    }
+}
+
 // Slivers and points: all triangles with corners on a 3 x 3 grid of half pixels around a block
 // edge.
 TEST_P(KernelTest, RasterizeOfSmallTriangles) {

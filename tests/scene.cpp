@@ -201,18 +201,15 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
     const std::string material = "[[materials]]\nname = \"m\"\n";
-    const std::string object = "[[objects]]\nshape = \"cube\"\n";
     const std::vector<std::string> texts{"[machine]\nprofile = \"double\"\n",
                                          "[machine]\nfilter_order = \"after\"\n",
                                          "[machine]\nhalf_vector = \"cube:64\"\n",
                                          texture + "mipmaps = \"toksvig\"\n",
-                                         material + "alpha_test = \"greater\"\n",
                                          material + "texture_shader = \"a.ts\"\n",
                                          material + "normal_y = \"down\"\n",
                                          material +
                                              "units = []\n[materials.hardware]\n"
-                                             "cull_fragment_bits = \"0101\"\n",
-                                         object + "blend = \"alpha\"\n"};
+                                             "cull_fragment_bits = \"0101\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }
@@ -453,6 +450,61 @@ vertices = []
     EXPECT_EQ(f.b.reg, tex(0));
     EXPECT_EQ(f.c.reg, Register::zero);
     EXPECT_EQ(f.d.reg, Register::zero);
+}
+
+TEST_F(SceneFiles, BlendingArrivesByNameAndByFactors) {
+    const auto blend = [&](const std::string& value) {
+        return scene("[[objects]]\nshape = \"cube\"\nblend = " + value + "\n")
+            .objects[0]
+            .raster.blend;
+    };
+    EXPECT_FALSE(blend("\"off\""));
+    EXPECT_FALSE(scene("[[objects]]\nshape = \"cube\"\n").objects[0].raster.blend);
+    EXPECT_EQ(blend("\"alpha\""), Blend::alpha());
+    EXPECT_EQ(blend("\"premultiplied\""), Blend::premultiplied());
+    EXPECT_EQ(blend("\"add\""), Blend::add());
+    EXPECT_EQ(blend("\"multiply\""), Blend::multiply());
+    EXPECT_EQ(blend("{ src = \"dst_alpha\", dst = \"one_minus_constant_color\", "
+                    "equation = \"reverse_subtract\", constant = [0.25, 0.5, 0.75, 1.0] }"),
+              (Blend{BlendFactor::dst_alpha,
+                     BlendFactor::one_minus_constant_color,
+                     BlendEquation::reverse_subtract,
+                     {0.25F, 0.5F, 0.75F, 1.0F}}));
+    EXPECT_EQ(blend("{ equation = \"max\" }"),
+              (Blend{BlendFactor::one, BlendFactor::zero, BlendEquation::max}));
+}
+
+TEST_F(SceneFiles, BlendingErrors) {
+    const std::string object = "[[objects]]\nshape = \"cube\"\nblend = ";
+    EXPECT_SAYS(bad(object + "\"alhpa\"\n"),
+                "FILE:4: 'blend' = \"alhpa\" in [[objects]], did you mean 'alpha'?");
+    EXPECT_SAYS(bad(object + "3\n"), "FILE:4: 'blend' in [[objects]] is an integer");
+    EXPECT_SAYS(bad(object + "{ src = \"src_alhpa\" }\n"),
+                "FILE:4: 'src' = \"src_alhpa\" in 'blend', did you mean 'src_alpha'?");
+    EXPECT_SAYS(bad(object + "{ source = \"one\" }\n"), "unknown key 'source' in 'blend'");
+    EXPECT_SAYS(bad(object + "{ equation = \"plus\" }\n"),
+                "expected add, subtract, reverse_subtract, min, max");
+    EXPECT_SAYS(bad(object + "{ constant = [0.0, 0.0, 0.0, 2.0] }\n"),
+                "'constant' in 'blend' has the value 2");
+}
+
+TEST_F(SceneFiles, AlphaTests) {
+    const auto test = [&](const std::string& keys) {
+        return scene("[[materials]]\nname = \"m\"\nunits = []\n" + keys +
+                     "[[objects]]\nshape = \"cube\"\nmaterial = \"m\"\n")
+            .objects[0]
+            .material->alpha_test;
+    };
+    EXPECT_EQ(test("").pass, Comparison::always);
+    EXPECT_EQ(test("alpha_test = \"off\"\n").pass, Comparison::always);
+    EXPECT_EQ(test("alpha_test = \"notequal\"\n").pass, Comparison::notequal);
+    EXPECT_EQ(test("alpha_test = \"greater\"\nalpha_ref = 0.25\n").pass, Comparison::greater);
+    EXPECT_EQ(test("alpha_test = \"greater\"\nalpha_ref = 0.25\n").reference, 0.25F);
+    const std::string material = "[[materials]]\nname = \"m\"\n";
+    EXPECT_SAYS(bad(material + "alpha_test = \"grater\"\n"), "did you mean 'greater'?");
+    EXPECT_SAYS(bad(material + "alpha_test = \"less\"\nalpha_ref = 1.5\n"), "FILE:5: ");
+    EXPECT_SAYS(bad(material + "alpha_ref = 0.5\n"),
+                "'alpha_ref' in [[materials]] without 'alpha_test'");
 }
 
 TEST_F(SceneFiles, ObjectErrors) {

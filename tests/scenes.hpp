@@ -225,16 +225,87 @@ inline Scene machine() {
     return scene;
 }
 
+/// Glass, smoke and lattices: blended layers of meshes and of raw vertices between opaque ones,
+/// before and after them, and alpha tests with holes.
+inline Scene layers() {
+    Scene scene = lit_scene(machine_profile("nv2a"), 260, 190);
+    scene.camera.position = {0.4F, 0.5F, 3.4F};
+    const auto material = [](std::array<int, 4> base, AlphaTest test) {
+        auto made = painted(base);
+        made->program->combiners.final_combiner.g = {Register::tex0, Mapping::unsigned_identity,
+                                                     Component::alpha};
+        made->alpha_test = test;
+        return made;
+    };
+    const auto sheet = [&](glm::vec2 from, float size, float depth, glm::vec4 color,
+                           const Blend& blend) {
+        const glm::vec4 other(color.g, color.b, color.r, color.a * 0.5F);
+        const auto at = [&](float x, float y) {
+            return glm::vec4(from.x + x * size, from.y + y * size, depth, 1.0F);
+        };
+        const auto see = [](const glm::vec4& p, const glm::vec4& c) {
+            RawVertex v;
+            v.position = p;
+            v.color0 = c;
+            return v;
+        };
+        auto plain = std::make_shared<Material>();
+        const Input color0 = combine::raw(Register::col0);
+        ProgramBuilder p;
+        p.lerp(color0, combine::one(), combine::raw(Register::zero), combine::raw(Register::zero));
+        p.out_alpha(combine::alpha(color0));
+        plain->program.emplace();
+        plain->program->combiners = p.build();
+        scene.objects.push_back(
+            {RawVertices{Space::window,
+                         Topology::quads,
+                         {see(at(0.0F, 0.0F), color), see(at(1.0F, 0.1F), other),
+                          see(at(0.9F, 1.0F), color), see(at(-0.1F, 0.8F), other)}},
+             plain,
+             glm::mat4(1.0F),
+             {.depth_test = DepthTest::lequal, .depth_write = false, .blend = blend}});
+    };
+    const glm::vec3 y(0.0F, 1.0F, 0.0F);
+    scene.objects.push_back({Mesh(shapes::torus_knot(120, 14)),
+                             painted({170, 120, 90, 255}),
+                             placement({-0.5F, 0.2F, -0.6F}, y, 20.0F, 0.8F),
+                             {}});
+    scene.objects.push_back({Mesh(shapes::sphere(48, 24)),
+                             material({120, 160, 130, 128}, {Comparison::gequal, 0.5F}),
+                             placement({0.8F, 0.1F, 0.2F}, y, 70.0F, 0.8F),
+                             {}});
+    for (int i = 0; i < 6; ++i) {
+        const auto k = static_cast<float>(i);
+        sheet({10.0F + 22.0F * k, 8.0F + 14.0F * k}, 90.0F, 0.99F - 0.001F * k,
+              {0.9F - 0.1F * k, 0.2F + 0.1F * k, 0.3F, 0.3F + 0.1F * k}, Blend::alpha());
+    }
+    scene.objects.push_back({Mesh(shapes::torus_knot(90, 10)),
+                             material({90, 130, 170, 128}, {}),
+                             placement({0.3F, -0.3F, 0.6F}, y, 120.0F, 0.5F),
+                             {.depth_write = false, .blend = Blend::alpha()}});
+    scene.objects.push_back({Mesh(shapes::sphere(24, 12)),
+                             painted({200, 90, 90, 255}),
+                             placement({-0.9F, -0.5F, 0.7F}, y, 0.0F, 0.3F),
+                             {}});
+    sheet({120.0F, 20.0F}, 110.0F, 0.2F, {0.4F, 0.3F, 0.1F, 0.5F}, Blend::add());
+    sheet({30.0F, 100.0F}, 80.0F, 0.2F, {0.3F, 0.1F, 0.2F, 0.5F},
+          {BlendFactor::one, BlendFactor::one, BlendEquation::reverse_subtract, {}});
+    sheet({170.0F, 110.0F}, 70.0F, 0.2F, {0.7F, 0.8F, 0.9F, 0.5F}, Blend::multiply());
+    scene.objects.push_back({Mesh(shapes::sphere(30, 20)),
+                             material({140, 140, 200, 128}, {Comparison::less, 0.6F}),
+                             placement({-0.1F, 0.6F, 1.0F}, y, 10.0F, 0.4F),
+                             {.depth_test = DepthTest::lequal, .blend = Blend::premultiplied()}});
+    return scene;
+}
+
 struct NamedScene {
     std::string name;
     Scene (*make)();
 };
 inline const std::vector<NamedScene>& all() {
-    static const std::vector<NamedScene> list{{"knot", knot},
-                                              {"ellipsoid", ellipsoid},
-                                              {"million", million},
-                                              {"near_plane", near_plane},
-                                              {"machine", machine}};
+    static const std::vector<NamedScene> list{{"knot", knot},       {"ellipsoid", ellipsoid},
+                                              {"million", million}, {"near_plane", near_plane},
+                                              {"machine", machine}, {"layers", layers}};
     return list;
 }
 

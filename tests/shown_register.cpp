@@ -34,6 +34,18 @@ Scene raw_scene(const Machine& machine) {
     return scene;
 }
 
+/// Blended, and with alpha tests: the register is that of the last fragment that is in the picture.
+Scene tested_scene(const Machine& machine) {
+    Scene scene = raw_scene(machine);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        auto material = std::make_shared<Material>(*scene.objects[i].material);
+        if (i != 2) material->alpha_test = {Comparison::greater, 0.3F};
+        scene.objects[i].material = material;
+        if (i % 2 == 1) scene.objects[i].raster.blend = Blend::add();
+    }
+    return scene;
+}
+
 template <class Channel>
 std::array<Channel, 4> pixel(const Framebuffer& frame, int x, int y) {
     std::array<Channel, 4> v;
@@ -149,15 +161,15 @@ TEST_P(ShownRegisters, SumAndProductOfTheFinalCombiner) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShownRegisters,
-                         testing::Values(Case{"ball", ball_scene, "geforce256"},
-                                         Case{"ball", ball_scene, "nv2a"},
-                                         Case{"ball", ball_scene, "ideal"},
-                                         Case{"raw", raw_scene, "nv2a"},
-                                         Case{"raw", raw_scene, "ideal"}),
-                         [](const testing::TestParamInfo<Case>& test) {
-                             return std::string(test.param.name) + "_" + test.param.machine;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, ShownRegisters,
+    testing::Values(Case{"ball", ball_scene, "geforce256"}, Case{"ball", ball_scene, "nv2a"},
+                    Case{"ball", ball_scene, "ideal"}, Case{"raw", raw_scene, "nv2a"},
+                    Case{"raw", raw_scene, "ideal"}, Case{"tested", tested_scene, "nv2a"},
+                    Case{"tested", tested_scene, "ideal"}),
+    [](const testing::TestParamInfo<Case>& test) {
+        return std::string(test.param.name) + "_" + test.param.machine;
+    });
 
 TEST(ShownRegister, BeyondTheLastStageIsTheLast) {
     const Scene scene = ball_scene(machine_profile("nv2a"));

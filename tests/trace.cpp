@@ -484,5 +484,58 @@ TEST(Trace, InterpolantsOfAMesh) {
     }
 }
 
+/// A quad of one colour in front of all, given as codes.
+Object sheet(std::array<int, 4> codes, const std::optional<Blend>& blend, AlphaTest test = {}) {
+    RawVertices raw{Space::window, Topology::quads, {}};
+    for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {8.0F, 0.0F}, {8.0F, 8.0F}, {0.0F, 8.0F}}) {
+        RawVertex v = window_vertex(x, y, 1.0F, {});
+        for (std::size_t c = 0; c < 4; ++c)
+            v.color0[static_cast<int>(c)] = static_cast<float>(codes[c]) / 255.0F;
+        raw.vertices.push_back(v);
+    }
+    auto material = vertex_color();
+    material->alpha_test = test;
+    return {std::move(raw),
+            material,
+            glm::mat4(1.0F),
+            {.depth_test = DepthTest::always, .blend = blend}};
+}
+
+TEST(Trace, ListsWhatShowsThroughInOrder) {
+    Scene scene;
+    scene.width = scene.height = 8;
+    scene.machine = machine_profile("nv2a");
+    scene.objects = {
+        sheet({9, 9, 9, 9}, Blend::add()), sheet({100, 50, 0, 255}, {}),
+        sheet({1, 2, 3, 4}, {}, {Comparison::greater, 0.5F}),
+        sheet({200, 100, 50, 64}, Blend::alpha()),
+        sheet({10, 20, 30, 40}, Blend{BlendFactor::one_minus_dst_color, BlendFactor::one})};
+    const PixelTrace trace = trace_pixel(scene, 3, 5);
+    // What an opaque sheet hides and what a test drops is not in the colour.
+    ASSERT_EQ(trace.below.size(), 2U);
+    EXPECT_EQ(trace.below[0].object, 1U);
+    EXPECT_FALSE(trace.below[0].blend);
+    EXPECT_EQ(trace.below[1].object, 3U);
+    ASSERT_TRUE(trace.below[1].blend);
+    const TracedBlend& first = *trace.below[1].blend;
+    using Numbers = std::array<double, 4>;
+    EXPECT_EQ(first.source, (Numbers{200, 100, 50, 64}));
+    EXPECT_EQ(first.source_factor, (Numbers{64, 64, 64, 64}));
+    EXPECT_EQ(first.destination, (Numbers{100, 50, 0, 255}));
+    EXPECT_EQ(first.destination_factor, (Numbers{191, 191, 191, 191}));
+    // (200 64 + 100 191) / 255 = 125.1, (6400 + 9550) / 255 = 62.5 (62.55), 12.5 (12.55), 207.1
+    EXPECT_EQ(first.result, (Numbers{125, 63, 13, 207}));
+    ASSERT_TRUE(trace.fragment);
+    EXPECT_EQ(trace.fragment->object, 4U);
+    ASSERT_TRUE(trace.fragment->blend);
+    const TracedBlend& last = *trace.fragment->blend;
+    EXPECT_EQ(last.destination, first.result);
+    EXPECT_EQ(last.source_factor, (Numbers{130, 192, 242, 48}));
+    EXPECT_EQ(last.destination_factor, (Numbers{255, 255, 255, 255}));
+    // 1300 / 255 = 5.1 and 125; 3840: 15.1; 7260: 28.5 (28.47); 1920: 7.5 (7.53)
+    EXPECT_EQ(last.result, (Numbers{130, 78, 41, 215}));
+    EXPECT_EQ(trace.stored, last.result);
+}
+
 }  // namespace
 }  // namespace burnish

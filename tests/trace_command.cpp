@@ -169,13 +169,55 @@ TEST_F(TraceCommand, RegistersAsPictures) {
 
 TEST_F(TraceCommand, UnknownRegistersAreWrongUsage) {
     write_quad();
-    expect_failure("render q.toml --aov colour", 2, "expected register:NAME");
+    expect_failure("render q.toml --aov colour", 2,
+                   "triangle, register:NAME or register:NAME@STAGE");
     expect_failure("render q.toml --aov register:spar0", 2, "did you mean 'spare0'?");
     expect_failure("render q.toml --aov register:discard", 2, "unknown register 'discard'");
     for (const char* stage : {"-1", "16", "1x", "", "last"})
         expect_failure(fmt::format("render q.toml --aov register:tex0@{}", stage), 2,
                        "a stage of 0 .. 15, inputs or final");
     expect_failure("render q.toml --aov register:tex4", 3, "tex0 .. tex3");
+}
+
+// The quad of write_quad covers the left half at one depth; what is in files are its numbers.
+TEST_F(TraceCommand, GeometryAsPictures) {
+    write_quad();
+    for (const char* aov : {"depth", "normal", "tangent", "uv", "triangle"}) {
+        ASSERT_EQ(run(fmt::format("render q.toml --aov {0} -o {0}.png", aov)).code, 0) << aov;
+        const Image8 image = load_image(path(fmt::format("{}.png", aov)));
+        EXPECT_EQ(image.at(1, 3)[3], 255) << aov;
+        EXPECT_EQ(image.at(6, 0)[3], std::string(aov) == "depth" ? 255 : 0) << aov;
+    }
+    ASSERT_EQ(run("render q.toml --aov depth --samples 4 -o depth.exr").code, 0);
+    expect_failure("render q.toml --aov triangle --samples 4 -o x.png", 2, "numbers have no mean");
+    const Result bench = run("bench q.toml --aov depth --frames 1 --json");
+    EXPECT_EQ(bench.code, 0) << bench.err;
+}
+
+TEST_F(TraceCommand, LayersAreListed) {
+    const auto quad = [](const char* blend, const char* color) {
+        return fmt::format(
+            "[[objects]]\nspace = \"window\"\nprimitive = \"quads\"\ndepth_test = \"always\"\n"
+            "blend = {}\nvertices = [\n{{ position = [0, 0, 0.5], color0_bytes = {} }},\n"
+            "{{ position = [8, 0, 0.5], color0_bytes = {} }},\n"
+            "{{ position = [8, 4, 0.5], color0_bytes = {} }},\n"
+            "{{ position = [0, 4, 0.5], color0_bytes = {} }} ]\n",
+            blend, color, color, color, color);
+    };
+    write_scene("layers.toml", "[machine]\nprofile = \"nv2a\"\n" +
+                                   quad("\"off\"", "[100, 50, 0, 255]") +
+                                   quad("\"alpha\"", "[200, 100, 50, 64]"));
+    const Json trace = json("layers.toml --size 8x4 --pixel 2,2");
+    ASSERT_EQ(trace["below"].list.size(), 1U);
+    EXPECT_EQ(trace["below"][0]["object"].number, 1) << "after that of write_scene";
+    const Json& blend = trace["fragment"]["blend"];
+    EXPECT_EQ(blend["src"].text, "src_alpha");
+    EXPECT_EQ(numbers(blend["destination"]), (std::vector<double>{100, 50, 0, 255}));
+    EXPECT_EQ(numbers(blend["result"]), (std::vector<double>{125, 63, 13, 207}));
+    EXPECT_EQ(numbers(trace["stored"]), numbers(blend["result"]));
+    const std::string text = run("trace layers.toml --size 8x4 --pixel 2,2").out;
+    EXPECT_SAYS(text, "fragment 1 of 2");
+    EXPECT_SAYS(text, "blend add, src src_alpha, dst one_minus_src_alpha");
 }
 
 }  // namespace

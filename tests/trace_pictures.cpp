@@ -52,6 +52,20 @@ Scene cut_scene(const Machine& machine) {
     return scene;
 }
 
+/// Layers, small enough to follow every pixel.
+Scene layers_scene(const Machine& machine) {
+    Scene scene = scenes::layers();
+    scene.machine = machine;
+    scene.width = 40;
+    scene.height = 30;
+    for (Object& object : scene.objects) {  // window coordinates
+        if (auto* raw = std::get_if<RawVertices>(&object.geometry))
+            for (RawVertex& v : raw->vertices)
+                v.position *= glm::vec4(40.0F / 260.0F, 30.0F / 190.0F, 1.0F, 1.0F);
+    }
+    return scene;
+}
+
 template <class Channel>
 std::array<double, 4> channels_at(const Framebuffer& frame, int x, int y) {
     Channel v[4];
@@ -86,6 +100,7 @@ std::vector<Case> cases() {
         for (const char* half_vector : {"vertex", "pixel"}) {
             list.push_back({"ball", ball_scene, machine, half_vector});
             list.push_back({"cut", cut_scene, machine, half_vector});
+            list.push_back({"layers", layers_scene, machine, half_vector});
         }
         list.push_back({"raw", raw_scene_of, machine, "vertex"});
     }

@@ -36,12 +36,13 @@ struct Measurement {
     FrameStats last;
 };
 
-Measurement measure(Renderer& renderer, const Scene& scene, Framebuffer& frame, int frames) {
+Measurement measure(Renderer& renderer, const Scene& scene, Framebuffer& frame,
+                    const BenchOptions& options) {
     constexpr int kWarmUp = 2;
     Measurement result;
-    for (int i = 0; i < kWarmUp + frames; ++i) {
+    for (int i = 0; i < kWarmUp + options.frames; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        result.last = draw(renderer, scene, frame);
+        result.last = draw(renderer, scene, frame, options.shown);
         const std::chrono::duration<double, std::milli> time =
             std::chrono::steady_clock::now() - start;
         if (i < kWarmUp) continue;
@@ -63,7 +64,7 @@ void run(const BenchOptions& options) {
     Renderer renderer = make_renderer(options.picture);
     const Scene scene = load_picture(options.picture);
     Framebuffer frame(scene.width, scene.height, scene.format);
-    const Measurement measured = measure(renderer, scene, frame, options.frames);
+    const Measurement measured = measure(renderer, scene, frame, options);
     const Times times(measured.frame);
     const double geometry = Times(measured.geometry).median();
     const double tiles = Times(measured.tiles).median();

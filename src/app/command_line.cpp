@@ -115,11 +115,8 @@ Register parse_register(const std::string& name) {
 }
 
 /// register:NAME, register:NAME@STAGE, register:NAME@inputs or register:NAME@final.
-ShownRegister parse_aov(const std::string& text) {
+ShownRegister parse_shown_register(const std::string& text) {
     constexpr std::string_view kKind = "register:";
-    if (!text.starts_with(kKind)) {
-        fail(fmt::format("--aov {}, expected register:NAME or register:NAME@STAGE", text));
-    }
     const std::string_view rest = std::string_view(text).substr(kKind.size());
     const std::size_t at = rest.find('@');
     ShownRegister shown{.reg = parse_register(std::string(rest.substr(0, at)))};
@@ -139,6 +136,29 @@ ShownRegister parse_aov(const std::string& text) {
     }
     shown.stages = stage + 1;
     return shown;
+}
+
+Shown parse_aov(const std::string& text) {
+    constexpr std::array<std::pair<std::string_view, Aov>, 5> kAovs{{{"depth", Aov::depth},
+                                                                     {"normal", Aov::normal},
+                                                                     {"tangent", Aov::tangent},
+                                                                     {"uv", Aov::uv},
+                                                                     {"triangle", Aov::triangle}}};
+    if (text.starts_with("register:")) return parse_shown_register(text);
+    for (const auto& [name, aov] : kAovs)
+        if (text == name) return aov;
+    fail(
+        fmt::format("--aov {}, expected depth, normal, tangent, uv, triangle, register:NAME or "
+                    "register:NAME@STAGE",
+                    text));
+}
+
+void add_aov(CLI::App& verb, std::optional<Shown>& shown) {
+    verb.add_option_function<std::string>(
+            "--aov", [&shown](const std::string& text) { shown = parse_aov(text); },
+            "Shown instead of colours: depth, normal, tangent, uv, triangle, or a register, e.g. "
+            "register:spare0@1 after stage 1, ...@inputs, @final")
+        ->type_name("WHAT");
 }
 
 void add_camera_options(CLI::App& verb, CameraOptions& camera) {
@@ -237,10 +257,7 @@ void add_render(CLI::App& verb, RenderOptions& options) {
             },
             "Print counts and times of the frame: text or json")
         ->type_name("FORMAT");
-    verb.add_option_function<std::string>(
-            "--aov", [&options](const std::string& text) { options.shown = parse_aov(text); },
-            "A register as the picture, e.g. register:spare0@1 after stage 1, ...@inputs, @final")
-        ->type_name("WHAT");
+    add_aov(verb, options.shown);
 }
 
 void add_trace(CLI::App& verb, TraceOptions& options) {
@@ -259,6 +276,7 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     verb.add_flag("--json", options.json, "Print JSON");
+    add_aov(verb, options.shown);
 }
 
 void add_compile(CLI::App& verb, CompileOptions& options) {

@@ -39,13 +39,16 @@ struct PictureOptions {
 
 enum class StatsFormat { none, text, json };
 
+/// What the picture shows instead of colours.
+using Shown = std::variant<ShownRegister, Aov>;
+
 struct RenderOptions {
     PictureOptions picture;
     std::string output;  ///< empty: the input's stem + ".png"; "-": standard output
     int samples = 1;     ///< per pixel: a square number
     int turntable = 0;   ///< frames of one turn; 0: a single picture
     StatsFormat stats = StatsFormat::none;
-    std::optional<ShownRegister> shown;  ///< --aov register:...
+    std::optional<Shown> shown;  ///< --aov
 };
 
 struct TraceOptions {
@@ -57,6 +60,7 @@ struct TraceOptions {
 struct BenchOptions {
     PictureOptions picture;
     int frames = 50;
+    std::optional<Shown> shown;  ///< --aov
     bool json = false;
 };
 

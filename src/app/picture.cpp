@@ -103,9 +103,11 @@ Renderer make_renderer(const PictureOptions& options) {
 }
 
 FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,
-                const std::optional<ShownRegister>& shown) {
+                const std::optional<Shown>& shown) {
     try {
-        return shown ? renderer.render(scene, target, *shown) : renderer.render(scene, target);
+        if (!shown) return renderer.render(scene, target);
+        return std::visit([&](const auto& what) { return renderer.render(scene, target, what); },
+                          *shown);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_option) throw;
         throw Error(ErrorCode::bad_input, error.what());

@@ -16,7 +16,7 @@ Renderer make_renderer(const PictureOptions& options);
 
 /// Renders; what the scene cannot do counts as bad input, not as wrong usage.
 FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,
-                const std::optional<ShownRegister>& shown = {});
+                const std::optional<Shown>& shown = {});
 
 /// The camera turned about its focal point by `degrees` around its view-up direction.
 Camera turned(const Camera& camera, float degrees);

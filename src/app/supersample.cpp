@@ -79,8 +79,11 @@ void shrink(const Framebuffer& large, int side, Framebuffer& target) {
 }  // namespace
 
 FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side, Framebuffer& target,
-                             const std::optional<ShownRegister>& shown) {
+                             const std::optional<Shown>& shown) {
     if (side == 1) return draw(renderer, scene, target, shown);
+    if (shown && std::holds_alternative<Aov>(*shown) && std::get<Aov>(*shown) == Aov::triangle)
+        throw Error(ErrorCode::bad_option,
+                    "--samples with --aov triangle, expected one: numbers have no mean");
     if (target.width() * side > Framebuffer::kMaxSize ||
         target.height() * side > Framebuffer::kMaxSize)
         throw Error(

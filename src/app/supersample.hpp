@@ -2,6 +2,8 @@
 
 #include <burnish/renderer.hpp>
 
+#include "app/command_line.hpp"
+
 /// Several samples per pixel by drawing a larger picture and averaging it.
 namespace burnish::app {
 
@@ -10,6 +12,6 @@ namespace burnish::app {
 /// scaled along. Throws Error{limit} if the larger picture exceeds Framebuffer::kMaxSize.
 /// `shown` is drawn in place of colours.
 FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side, Framebuffer& target,
-                             const std::optional<ShownRegister>& shown = {});
+                             const std::optional<Shown>& shown = {});
 
 }  // namespace burnish::app

@@ -93,15 +93,25 @@ std::string stage_json(const TracedStage& s) {
                        json_string(s.text), json_list(s.registers, register_json));
 }
 
+std::string blend_json(const TracedBlend& b) {
+    return fmt::format(
+        "{{\"src\": \"{}\", \"dst\": \"{}\", \"equation\": \"{}\", \"source\": {}, "
+        "\"source_factor\": {}, \"destination\": {}, \"destination_factor\": {}, \"result\": {}}}",
+        blend_factor_name(b.blend.src), blend_factor_name(b.blend.dst),
+        blend_equation_name(b.blend.equation), json_list(b.source), json_list(b.source_factor),
+        json_list(b.destination), json_list(b.destination_factor), json_list(b.result));
+}
+
 std::string fragment_json(const TracedFragment& f) {
     return fmt::format(
         "{{\"object\": {}, \"material\": {}, \"triangle\": {}, \"clipped\": {}, \"vertices\": {}, "
         "\"barycentrics\": {}, \"depth\": {}, \"one_over_w\": {}, \"interpolants\": {}, "
-        "\"fetches\": {}, \"stages\": {}, \"codes\": {}, {}}}",
+        "\"fetches\": {}, \"stages\": {}, \"codes\": {}, {}, \"blend\": {}}}",
         f.object, json_string(f.material), f.triangle, f.clipped, json_list(f.vertices),
         json_list(f.barycentrics), json(f.depth), json(f.one_over_w),
         json_list(f.interpolants, interpolant_json), json_list(f.fetches, fetch_json),
-        json_list(f.stages, stage_json), json_list(f.codes), json_members(f.color));
+        json_list(f.stages, stage_json), json_list(f.codes), json_members(f.color),
+        f.blend ? blend_json(*f.blend) : "null");
 }
 
 }  // namespace
@@ -109,11 +119,11 @@ std::string fragment_json(const TracedFragment& f) {
 std::string trace_json(const PixelTrace& trace, const Scene& scene) {
     return fmt::format(
         "{{\"pixel\": [{}, {}], \"size\": [{}, {}], \"machine\": {}, \"one\": {}, \"fragment\": "
-        "{}, "
+        "{}, \"below\": {}, "
         "\"format\": \"{}\", \"stored\": {}}}",
         trace.x, trace.y, scene.width, scene.height, json_string(trace.machine.name), trace.one,
-        trace.fragment ? fragment_json(*trace.fragment) : "null", format_name(trace.format),
-        json_list(trace.stored));
+        trace.fragment ? fragment_json(*trace.fragment) : "null",
+        json_list(trace.below, fragment_json), format_name(trace.format), json_list(trace.stored));
 }
 
 }  // namespace burnish::app

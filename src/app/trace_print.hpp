@@ -11,6 +11,10 @@ std::string trace_text(const PixelTrace& trace, const Scene& scene);
 /// One object, one line; numbers that are not finite become null.
 std::string trace_json(const PixelTrace& trace, const Scene& scene);
 
+/// As in scene files.
+const char* blend_factor_name(BlendFactor factor);
+const char* blend_equation_name(BlendEquation equation);
+
 /// "rgba8", "rgba16" or "rgba32f", as in scene files.
 const char* format_name(PixelFormat format);
 /// As in scene files.

@@ -148,6 +148,31 @@ std::string fetch_text(const TracedFetch& f, const TableWriter& table) {
     return text + table.heading("") + table.row(name, f.codes, f.color, kAll);
 }
 
+std::string blend_text(const TracedBlend& b, PixelFormat format) {
+    const auto channels = [](const std::array<double, 4>& x) {
+        return four([&](std::size_t c) { return fmt::format("{:>13.9g}", x[c]); });
+    };
+    std::string text =
+        fmt::format("blend {}, src {}, dst {}\n", blend_equation_name(b.blend.equation),
+                    blend_factor_name(b.blend.src), blend_factor_name(b.blend.dst));
+    text += fmt::format("  {:<20}{}\n", format_name(format),
+                        "            r            g            b            a");
+    text += fmt::format("  {:<20}{}\n", "source", channels(b.source));
+    text += fmt::format("  {:<20}{}\n", "  factor", channels(b.source_factor));
+    text += fmt::format("  {:<20}{}\n", "frame", channels(b.destination));
+    text += fmt::format("  {:<20}{}\n", "  factor", channels(b.destination_factor));
+    return text + fmt::format("  {:<20}{}\n", "result", channels(b.result));
+}
+
+std::string fragment_text(const TracedFragment& f, const TableWriter& table, PixelFormat format) {
+    std::string text = triangle_text(f) + "\n" + interpolant_text(f.interpolants) + "\n";
+    for (const TracedFetch& fetch : f.fetches) text += fetch_text(fetch, table) + "\n";
+    for (const TracedStage& stage : f.stages) text += table.stage(stage) + "\n";
+    text += table.heading("result") + table.row("  color", f.codes, f.color, kAll);
+    if (f.blend) text += fmt::format("\n{}", blend_text(*f.blend, format));
+    return text;
+}
+
 }  // namespace
 
 const char* filter_name(Filter filter) {
@@ -168,6 +193,52 @@ const char* filter_name(Filter filter) {
     return "linear_mipmap_linear";
 }
 
+const char* blend_factor_name(BlendFactor factor) {
+    switch (factor) {
+        case BlendFactor::zero:
+            return "zero";
+        case BlendFactor::one:
+            return "one";
+        case BlendFactor::src_color:
+            return "src_color";
+        case BlendFactor::one_minus_src_color:
+            return "one_minus_src_color";
+        case BlendFactor::src_alpha:
+            return "src_alpha";
+        case BlendFactor::one_minus_src_alpha:
+            return "one_minus_src_alpha";
+        case BlendFactor::dst_color:
+            return "dst_color";
+        case BlendFactor::one_minus_dst_color:
+            return "one_minus_dst_color";
+        case BlendFactor::dst_alpha:
+            return "dst_alpha";
+        case BlendFactor::one_minus_dst_alpha:
+            return "one_minus_dst_alpha";
+        case BlendFactor::constant_color:
+            return "constant_color";
+        case BlendFactor::one_minus_constant_color:
+            return "one_minus_constant_color";
+    }
+    return "";
+}
+
+const char* blend_equation_name(BlendEquation equation) {
+    switch (equation) {
+        case BlendEquation::add:
+            return "add";
+        case BlendEquation::subtract:
+            return "subtract";
+        case BlendEquation::reverse_subtract:
+            return "reverse_subtract";
+        case BlendEquation::min:
+            return "min";
+        case BlendEquation::max:
+            return "max";
+    }
+    return "";
+}
+
 const char* format_name(PixelFormat format) {
     switch (format) {
         case PixelFormat::rgba8:
@@ -185,15 +256,13 @@ std::string trace_text(const PixelTrace& trace, const Scene& scene) {
     std::string text =
         fmt::format("pixel {},{} of {} x {}, machine {}, 1 is code {}\n", trace.x, trace.y,
                     scene.width, scene.height, trace.machine.name, trace.one);
-    if (!trace.fragment) {
-        text += "background\n";
-    } else {
-        const TracedFragment& f = *trace.fragment;
-        text += triangle_text(f) + "\n" + interpolant_text(f.interpolants) + "\n";
-        for (const TracedFetch& fetch : f.fetches) text += fetch_text(fetch, table) + "\n";
-        for (const TracedStage& stage : f.stages) text += table.stage(stage) + "\n";
-        text += table.heading("result") + table.row("  color", f.codes, f.color, kAll);
+    if (!trace.fragment) text += "background\n";
+    for (std::size_t i = 0; i < trace.below.size(); ++i) {
+        text += fmt::format("fragment {} of {}\n", i + 1, trace.below.size() + 1);
+        text += fragment_text(trace.below[i], table, trace.format) + "\n";
     }
+    if (!trace.below.empty()) text += fmt::format("fragment {0} of {0}\n", trace.below.size() + 1);
+    if (trace.fragment) text += fragment_text(*trace.fragment, table, trace.format);
     const auto& s = trace.stored;
     return text + fmt::format("stored, {}: {} {} {} {}\n", format_name(trace.format), s[0], s[1],
                               s[2], s[3]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -33,10 +34,22 @@ struct SetupTriangle {
     PixelRect box;        ///< pixels whose centres it may cover, cut to the frame
     float z, zx, zy;      ///< depth at the centre of the reference pixel, and per pixel
     float z_low, z_high;  ///< range of the corners
-    std::int32_t reference_x, reference_y;  ///< pixel inside the frame, near the triangle
+    std::int16_t reference_x, reference_y;  ///< pixel inside the frame, near the triangle
     std::uint32_t vertex[3];                ///< of the draw, in the order of x, y; before clipping
     std::uint32_t draw;
+    std::uint32_t number;  ///< of the draw's triangles, in the order of submission
     std::uint8_t clipped;  ///< 1: x, y are not those of `vertex`
+};
+
+/// What a fragment of a draw has to pass, as the kernels take it.
+struct DepthRule {
+    std::uint8_t pass_less, pass_equal, pass_greater, write;
+};
+
+/// Pixels of a tile: bit i of word k is pixel 64 k + i.
+struct PixelMask {
+    std::uint64_t blocks = 0;  ///< bit k: word k has bits; others hold anything
+    std::array<std::uint64_t, kTileBlocks> word;
 };
 
 /// Visible fragments of a tile, triangle after triangle.

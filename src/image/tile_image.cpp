@@ -77,7 +77,7 @@ void for_each_row(const Framebuffer& frame, std::int32_t left, std::int32_t top,
 TileImage::TileImage(PixelFormat format)
     : m_format(format),
       m_pixel_size(pixel_size(format)),
-      m_pixels(kTilePixels * m_pixel_size),
+      m_pixels((kTilePixels + 1) * m_pixel_size),  // kNoPixel, too
       m_background(kTileSize * m_pixel_size) {}
 
 void TileImage::set_background(const glm::vec4& color) {
@@ -88,7 +88,8 @@ void TileImage::set_background(const glm::vec4& color) {
 }
 
 void TileImage::clear() {
-    for (auto to = m_pixels.begin(); to != m_pixels.end();) {
+    for (auto to = m_pixels.begin();
+         to != m_pixels.end() - static_cast<std::ptrdiff_t>(m_pixel_size);) {
         to = std::copy(m_background.begin(), m_background.end(), to);
     }
 }

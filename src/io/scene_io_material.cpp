@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <burnish/materials.hpp>
 #include <utility>
 
@@ -10,9 +12,18 @@ namespace burnish {
 namespace {
 
 void refuse_unsupported(const Section& section) {
-    section.accept_only("alpha_test", "off");
     section.accept_only("normal_y", "up");
     section.refuse({"texture_shader", "texture_shader_text"});
+}
+
+AlphaTest read_alpha_test(const Section& section) {
+    AlphaTest test;
+    test.reference = section.number("alpha_ref", kUnit).value_or(test.reference);
+    std::array<std::pair<std::string_view, Comparison>, kComparisons.size() + 1> names{
+        {{"off", Comparison::always}}};
+    std::copy(kComparisons.begin(), kComparisons.end(), names.begin() + 1);
+    test.pass = section.choice<Comparison>("alpha_test", names).value_or(test.pass);
+    return test;
 }
 
 Model read_model(const Section& section) {
@@ -102,6 +113,8 @@ MaterialTable read_materials(const Section& root, const TextureTable& textures,
                                               "one: a pipeline or a model",
                                               key));
         }
+        section.refuse_without("alpha_ref", "alpha_test");
+        material.alpha_test = read_alpha_test(section);
         if (section.has("model")) material.model = read_model(section);
         material.program = read_program(section, textures, directory);
         if (!material.program) read_reflectance(section, textures, material);

@@ -13,15 +13,31 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, DepthTest>, 8> kDepthTests{
-    {{"never", DepthTest::never},
-     {"less", DepthTest::less},
-     {"equal", DepthTest::equal},
-     {"lequal", DepthTest::lequal},
-     {"greater", DepthTest::greater},
-     {"notequal", DepthTest::notequal},
-     {"gequal", DepthTest::gequal},
-     {"always", DepthTest::always}}};
+const std::array<std::pair<std::string_view, std::optional<Blend>>, 5> kBlends{
+    {{"off", std::nullopt},
+     {"alpha", Blend::alpha()},
+     {"premultiplied", Blend::premultiplied()},
+     {"add", Blend::add()},
+     {"multiply", Blend::multiply()}}};
+constexpr std::array<std::pair<std::string_view, BlendFactor>, 12> kBlendFactors{
+    {{"zero", BlendFactor::zero},
+     {"one", BlendFactor::one},
+     {"src_color", BlendFactor::src_color},
+     {"one_minus_src_color", BlendFactor::one_minus_src_color},
+     {"src_alpha", BlendFactor::src_alpha},
+     {"one_minus_src_alpha", BlendFactor::one_minus_src_alpha},
+     {"dst_color", BlendFactor::dst_color},
+     {"one_minus_dst_color", BlendFactor::one_minus_dst_color},
+     {"dst_alpha", BlendFactor::dst_alpha},
+     {"one_minus_dst_alpha", BlendFactor::one_minus_dst_alpha},
+     {"constant_color", BlendFactor::constant_color},
+     {"one_minus_constant_color", BlendFactor::one_minus_constant_color}}};
+constexpr std::array<std::pair<std::string_view, BlendEquation>, 5> kBlendEquations{
+    {{"add", BlendEquation::add},
+     {"subtract", BlendEquation::subtract},
+     {"reverse_subtract", BlendEquation::reverse_subtract},
+     {"min", BlendEquation::min},
+     {"max", BlendEquation::max}}};
 constexpr std::array<std::pair<std::string_view, Cull>, 3> kCulls{
     {{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}}};
 constexpr std::array<std::pair<std::string_view, Space>, 3> kSpaces{
@@ -33,11 +49,34 @@ constexpr std::array<std::pair<std::string_view, Topology>, 5> kTopologies{
      {"quads", Topology::quads},
      {"quad_strip", Topology::quad_strip}}};
 
+/// blend = "NAME" or { src, dst, equation, constant }.
+std::optional<Blend> read_blend(const Section& section) {
+    const toml::table* table = section.has_table("blend") ? section.table("blend") : nullptr;
+    if (table == nullptr) {
+        const std::optional<std::string> name = section.text("blend");
+        if (!name) return std::nullopt;
+        std::vector<std::string_view> known;
+        for (const auto& [word, blend] : kBlends) {
+            if (word == *name) return blend;
+            known.push_back(word);
+        }
+        section.fail_unknown_word("blend", *name, known);
+    }
+    const Section factors(*table, "'blend'", {"src", "dst", "equation", "constant"});
+    Blend blend;
+    blend.src = factors.choice<BlendFactor>("src", kBlendFactors).value_or(blend.src);
+    blend.dst = factors.choice<BlendFactor>("dst", kBlendFactors).value_or(blend.dst);
+    blend.equation =
+        factors.choice<BlendEquation>("equation", kBlendEquations).value_or(blend.equation);
+    blend.constant = factors.vec4("constant", kUnit).value_or(blend.constant);
+    return blend;
+}
+
 RasterState read_raster(const Section& section) {
-    section.accept_only("blend", "off");
     RasterState raster;
+    raster.blend = read_blend(section);
     raster.depth_test =
-        section.choice<DepthTest>("depth_test", kDepthTests).value_or(raster.depth_test);
+        section.choice<DepthTest>("depth_test", kComparisons).value_or(raster.depth_test);
     raster.depth_write = section.boolean("depth_write").value_or(raster.depth_write);
     raster.cull = section.choice<Cull>("cull", kCulls).value_or(raster.cull);
     return raster;

@@ -1,17 +1,30 @@
 #pragma once
 
+#include <array>
 #include <burnish/files.hpp>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/scene_io_section.hpp"
 
 /// The parts of a scene file that refer to each other by name.
 namespace burnish {
+
+inline constexpr std::array<std::pair<std::string_view, Comparison>, 8> kComparisons{
+    {{"never", Comparison::never},
+     {"less", Comparison::less},
+     {"equal", Comparison::equal},
+     {"lequal", Comparison::lequal},
+     {"greater", Comparison::greater},
+     {"notequal", Comparison::notequal},
+     {"gequal", Comparison::gequal},
+     {"always", Comparison::always}}};
 
 struct NamedTexture {
     TexturePtr texture;

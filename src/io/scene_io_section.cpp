@@ -191,6 +191,11 @@ std::optional<std::vector<std::string>> Section::texts(std::string_view key) con
     return values;
 }
 
+bool Section::has_table(std::string_view key) const {
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_table();
+}
+
 const toml::table* Section::table(std::string_view key) const {
     const toml::node* node = find(key);
     if (node == nullptr) return nullptr;

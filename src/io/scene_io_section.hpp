@@ -46,6 +46,7 @@ class Section {
             std::initializer_list<std::string_view> keys);
 
     [[nodiscard]] bool has(std::string_view key) const;
+    [[nodiscard]] bool has_table(std::string_view key) const;
     [[nodiscard]] const std::string& label() const { return m_label; }
     /// "FILE:LINE" of a key, or of the table if the key is missing.
     [[nodiscard]] std::string place(std::string_view key) const;

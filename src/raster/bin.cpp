@@ -42,14 +42,16 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last)
     m_counts.submitted = last - first;
     const auto& indices = source.mesh.indices;
     for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
-        add(source, {indices[i], indices[i + 1], indices[i + 2]});
+        add(source,
+            {static_cast<std::uint32_t>(i / 3), {indices[i], indices[i + 1], indices[i + 2]}});
     }
     m_counts.binned = m_triangles.size();
     sort_into_tiles(source.frame);
 }
 
-void Chunk::add(const ChunkSource& source, const TriangleVertices& vertex) {
+void Chunk::add(const ChunkSource& source, const SourceTriangle& from) {
     const auto& screen = source.mesh.screen;
+    const auto& vertex = from.vertex;
     const ScreenVertex &v0 = screen[vertex[0]], &v1 = screen[vertex[1]], &v2 = screen[vertex[2]];
     const std::uint32_t any = v0.outcode | v1.outcode | v2.outcode;
     if ((any & Outcode::nonfinite) != 0) {
@@ -57,13 +59,14 @@ void Chunk::add(const ChunkSource& source, const TriangleVertices& vertex) {
         return;
     }
     if ((v0.outcode & v1.outcode & v2.outcode & Outcode::frustum) != 0) return;
-    if ((any & Outcode::needs_clip) != 0) return add_clipped(source, vertex);
-    const SetupResult result = add_projected(source, vertex, false, v0, v1, v2);
+    if ((any & Outcode::needs_clip) != 0) return add_clipped(source, from);
+    const SetupResult result = add_projected(source, from, false, v0, v1, v2);
     if (result == SetupResult::degenerate) ++m_counts.degenerate;
 }
 
-void Chunk::add_clipped(const ChunkSource& source, const TriangleVertices& vertex) {
+void Chunk::add_clipped(const ChunkSource& source, const SourceTriangle& from) {
     const auto& homogeneous = source.mesh.homogeneous;
+    const auto& vertex = from.vertex;
     const ClipPolygon polygon =
         clip_triangle(homogeneous[vertex[0]], homogeneous[vertex[1]], homogeneous[vertex[2]]);
     if (polygon.count == 0) return;
@@ -79,17 +82,18 @@ void Chunk::add_clipped(const ChunkSource& source, const TriangleVertices& verte
         if (!project(v, source.viewport, corners[i])) return;
     }
     for (int i = 2; i < polygon.count; ++i) {
-        add_projected(source, vertex, true, corners[0], corners[i - 1], corners[i]);
+        add_projected(source, from, true, corners[0], corners[i - 1], corners[i]);
     }
 }
 
-SetupResult Chunk::add_projected(const ChunkSource& source, const TriangleVertices& vertex,
+SetupResult Chunk::add_projected(const ChunkSource& source, const SourceTriangle& from,
                                  bool clipped, const ScreenVertex& v0, const ScreenVertex& v1,
                                  const ScreenVertex& v2) {
     const auto index = static_cast<std::uint32_t>(m_triangles.size());
     SetupTriangle& triangle = m_triangles.emplace_back();
-    std::copy(vertex.begin(), vertex.end(), triangle.vertex);
+    std::copy_n(from.vertex.begin(), 3, triangle.vertex);
     triangle.draw = source.draw;
+    triangle.number = from.number;
     triangle.clipped = clipped ? 1 : 0;
     SetupResult result = setup_triangle(v0, v1, v2, source.facing, source.frame, triangle);
     const std::size_t before = m_unsorted.size();

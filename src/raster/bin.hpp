@@ -29,8 +29,11 @@ struct ChunkSource {
     FrameSize frame;
 };
 
-/// Vertices of the draw at the corners of a triangle.
-using TriangleVertices = std::array<std::uint32_t, 3>;
+/// A triangle of the draw: its number, and the vertices at its corners.
+struct SourceTriangle {
+    std::uint32_t number;
+    std::array<std::uint32_t, 3> vertex;
+};
 
 /// Consecutive triangles of one draw, set up and sorted into the tiles that they touch. Chunks are
 /// filled in parallel and read in order, so no image depends on the schedule. Memory is kept for
@@ -48,10 +51,10 @@ class Chunk {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    void add(const ChunkSource& source, const TriangleVertices& vertex);
-    void add_clipped(const ChunkSource& source, const TriangleVertices& vertex);
-    SetupResult add_projected(const ChunkSource& source, const TriangleVertices& vertex,
-                              bool clipped, const ScreenVertex& v0, const ScreenVertex& v1,
+    void add(const ChunkSource& source, const SourceTriangle& from);
+    void add_clipped(const ChunkSource& source, const SourceTriangle& from);
+    SetupResult add_projected(const ChunkSource& source, const SourceTriangle& from, bool clipped,
+                              const ScreenVertex& v0, const ScreenVertex& v1,
                               const ScreenVertex& v2);
     void add_to_tiles(const SetupTriangle& triangle, std::uint32_t index);
     void sort_into_tiles(FrameSize frame);

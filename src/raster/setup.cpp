@@ -84,8 +84,8 @@ SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const
     // to the horizon had uv off by 0.008 texel with the first corner, 0.0003 with this one.
     const ScreenVertex& farthest = *std::max_element(
         v, v + 3, [](const ScreenVertex& a, const ScreenVertex& b) { return a.z < b.z; });
-    out.reference_x = clamp_to(farthest.x >> 8, frame.width);
-    out.reference_y = clamp_to(farthest.y >> 8, frame.height);
+    out.reference_x = static_cast<std::int16_t>(clamp_to(farthest.x >> 8, frame.width));
+    out.reference_y = static_cast<std::int16_t>(clamp_to(farthest.y >> 8, frame.height));
     depth_plane(v, static_cast<double>(area), out);
     return SetupResult::drawn;
 }

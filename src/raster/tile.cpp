@@ -10,6 +10,13 @@ namespace {
 constexpr int kBatch = 32;       // triangles per call of the kernel: 4 KB
 constexpr int kPixelSlack = 16;  // kernels write and read past the last pixel
 
+void set_rule(const DepthRule& rule, TileTriangle& triangle) {
+    triangle.pass_less = rule.pass_less;
+    triangle.pass_equal = rule.pass_equal;
+    triangle.pass_greater = rule.pass_greater;
+    triangle.depth_write = rule.write;
+}
+
 }  // namespace
 
 TileVisibility::TileVisibility()
@@ -61,10 +68,7 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
         if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) continue;
         const DepthRule& rule = rules[triangle.draw];
         seen.id = static_cast<std::uint32_t>(m_triangles.size());
-        seen.pass_less = rule.pass_less;
-        seen.pass_equal = rule.pass_equal;
-        seen.pass_greater = rule.pass_greater;
-        seen.depth_write = rule.write;
+        set_rule(rule, seen);
         m_triangles.push_back(&triangle);
         if (++ctx.count == kBatch) flush();
     }
@@ -89,6 +93,22 @@ TileFragments TileVisibility::collect(const KernelTable& kernels) {
                      m_pixels.data(), m_sizes.data()});
     const int count = std::accumulate(m_sizes.begin(), m_sizes.end(), 0);
     return {m_triangles, m_sizes.data(), m_pixels.data(), count};
+}
+
+void TileVisibility::forget() {
+    if (!shows_anything()) return;
+    m_triangles.clear();
+    m_drawn.clear();
+    std::fill(m_id.begin(), m_id.end(), kNoTriangle);
+}
+
+bool TileVisibility::cover(const SetupTriangle& triangle, const DepthRule& rule,
+                           const KernelTable& kernels, PixelMask& passed) {
+    TileTriangle seen;
+    if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) return false;
+    set_rule(rule, seen);
+    kernels.cover({&seen, m_depth.data(), m_block_far.data(), passed.word.data(), &passed.blocks});
+    return passed.blocks != 0;
 }
 
 }  // namespace burnish

@@ -11,11 +11,6 @@
 
 namespace burnish {
 
-/// What a fragment of a draw has to pass, as the kernels take it.
-struct DepthRule {
-    std::uint8_t pass_less, pass_equal, pass_greater, write;
-};
-
 /// Place of pixel (x, y) of a tile, 0 .. 63 each, in the order of kernels/packet.hpp.
 constexpr std::size_t tile_index(std::int32_t x, std::int32_t y) {
     const std::int32_t block = y / kBlockSize * (kTileSize / kBlockSize) + x / kBlockSize;
@@ -35,10 +30,22 @@ class TileVisibility {
     /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
     void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);
 
-    /// What is visible of all that was drawn, inside the frame. Valid until the next `begin`.
+    /// What is visible of all that was drawn, inside the frame. Valid until the next `begin` or
+    /// `forget`.
     TileFragments collect(const KernelTable& kernels);
 
+    /// Nothing is visible any more; depth stays.
+    void forget();
+    [[nodiscard]] bool shows_anything() const { return !m_triangles.empty(); }
+
+    /// Draws one triangle past the visibility buffer: its pixels inside the frame that pass `rule`.
+    /// False if there are none.
+    bool cover(const SetupTriangle& triangle, const DepthRule& rule, const KernelTable& kernels,
+               PixelMask& passed);
+
+    [[nodiscard]] float* depth() { return m_depth.data(); }
     [[nodiscard]] const float* depth() const { return m_depth.data(); }
+    [[nodiscard]] float* block_far() { return m_block_far.data(); }
     [[nodiscard]] std::int32_t left() const { return m_tile_x * kTileSize; }
     [[nodiscard]] std::int32_t top() const { return m_tile_y * kTileSize; }
 

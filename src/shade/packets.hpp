@@ -7,46 +7,87 @@
 #include "core/aligned.hpp"
 #include "geometry/triangle.hpp"
 #include "kernels/kernel_table.hpp"
+#include "shade/output.hpp"
+#include "shade/pixel_list.hpp"
 #include "shade/shading.hpp"
+#include "shade/shown.hpp"
 
 namespace burnish {
 
 /// What shading needs of a draw.
 struct ShadedDraw {
     const Shading* shading;
+    const FragmentOutput* output;
     ScreenMesh mesh;
+    const ShownValues* shown = nullptr;  ///< what goes to the tile instead of colours
 };
 
-/// A tile to shade into: its first pixel, and where its pixels go, in the order of
-/// kernels/packet.hpp.
+/// A tile to shade into: its first pixel, and where its pixels go.
 struct ShadedTile {
     std::int32_t left, top;
-    StoreFormat format;
-    void* pixels;
+    OutputTile output;
 };
 
 /// Cuts the fragments of a tile into packets, across triangles, and shades them. A worker's
-/// scratch; order does not matter to the result, since no pixel comes twice.
+/// scratch. No pixel comes twice in a packet, so that the order within does not matter.
 class PacketShader {
   public:
     PacketShader();
 
+    /// Starts a tile; forgets what an exception may have left of an earlier one.
+    void begin(const ShadedTile& tile);
+
+    /// Shades what a visibility buffer shows: no pixel twice, and in any order. Nothing is pending
+    /// before or after.
     void shade(const TileFragments& fragments, std::span<const ShadedDraw> draws,
-               const ShadedTile& tile, const KernelTable& kernels);
+               const KernelTable& kernels);
+
+    /// The draw of the triangles that follow; shades what is pending of another one.
+    void start_draw(const ShadedDraw& draw, const KernelTable& kernels);
+
+    /// Adds the pixels of one triangle after all that were added before. They wait for a packet to
+    /// be full, another draw, or a fragment of the same pixel.
+    void add(const SetupTriangle& triangle, const PixelMask& pixels, const KernelTable& kernels);
+
+    /// Shades what is pending.
+    void flush(const KernelTable& kernels);
 
     /// Since the last reset.
     [[nodiscard]] std::uint64_t shaded_pixels() const { return m_shaded; }
     void reset_count() { m_shaded = 0; }
 
   private:
-    void shade_packet(const ShadedTile& tile, const KernelTable& kernels);
+    /// Fragments of one triangle: where they are shaded and, unless that is the same, stored.
+    struct Fragments {
+        const std::uint16_t* shaded;
+        const std::uint16_t* stored;
+        int count;
+    };
+    void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
+    void shade_packet(const KernelTable& kernels);
+    void shade_colors(const Shading& shading, const KernelTable& kernels);
+    void show_values(const KernelTable& kernels);
+    void write_colors(const Shading& shading, const std::optional<Blend>& blend,
+                      const KernelTable& kernels);
+    [[nodiscard]] bool holds_any(const PixelMask& pixels) const;
+    void hold(const PixelMask& pixels);
 
     std::uint64_t m_shaded = 0;
-    const Shading* m_current = nullptr;  ///< of the packet's fragments
-    const Shading* m_loaded = nullptr;   ///< whose constants the planes hold
+    ShadedTile m_tile{};
+    ShadedDraw m_draw{};                ///< of the packet's fragments
+    const Shading* m_loaded = nullptr;  ///< whose constants the planes hold
     Packet m_packet{};
+    bool m_copied =
+        false;  ///< the packet's pixels are m_pixels, and m_stored says which are stored
+    AlignedVector<std::uint16_t> m_pixels, m_stored;
+    PixelMask m_pending;
+    PixelList m_list;
     std::vector<Run> m_runs;
+    std::vector<DepthRun> m_depth_runs;
+    std::vector<const SetupTriangle*> m_shown_triangles;  ///< of the runs, where values are shown
+    std::vector<ShownRun> m_shown_runs;
     AlignedVector<AttributePlane> m_plane_equations;  ///< of the runs, one after the other
+    AlignedVector<AttributePlane> m_shown_equations;
     AlignedVector<float> m_attributes;
     AlignedVector<std::int16_t> m_planes, m_weights;
     AlignedVector<std::int32_t> m_texels;

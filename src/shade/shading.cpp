@@ -270,18 +270,12 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
 }
 
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
-                  StoreFormat format, void* tile, Packet& packet) {
-    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
+                  Packet& packet) {
     kernels.attributes(packet, runs);
     for (const InputOp& op : shading.inputs) {
         feed_input(op, shading.program.numbers, kernels, runs, packet);
     }
     run(shading.program, kernels, packet);
-    StoreCtx store{};
-    std::copy_n(shading.program.result.begin(), 4, store.plane);
-    store.format = format;
-    store.tile = tile;
-    (nine_bit ? kernels.store_nine_bit : kernels.store_wide)(packet, store);
 }
 
 }  // namespace burnish

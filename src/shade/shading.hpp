@@ -44,6 +44,12 @@ struct Shading {
     std::vector<InputOp> inputs;
     BoundProgram program;
     std::vector<TexturePtr> textures;  ///< keeps the texels alive
+    /// Attribute plane, computed by the input ops; a fragment lives only where it is > 0. Or -1.
+    int keep_attribute = -1;
+    /// Attribute plane with the fragment's own window depth; outside [0, 1] or NaN: the fragment is
+    /// dropped. Or -1.
+    int depth_attribute = -1;
+    bool quads = false;  ///< fragments must come as whole 2x2 quads of one triangle
 
     [[nodiscard]] int interpolated() const {
         return frame_attributes + static_cast<int>(varying_list.size());
@@ -62,9 +68,9 @@ void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out)
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
                 const AttributesCtx& runs, Packet& packet);
 
-/// Input operations, program, and the pixels to `store.tile`. The packet's runs, pixels and
-/// constant planes are in place.
+/// Input operations and program: colours to the planes `shading.program.result`. The packet's runs,
+/// pixels and constant planes are in place.
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
-                  StoreFormat format, void* tile, Packet& packet);
+                  Packet& packet);
 
 }  // namespace burnish

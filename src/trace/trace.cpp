@@ -2,13 +2,11 @@
 
 #include <burnish/error.hpp>
 #include <burnish/trace.hpp>
-#include <cstring>
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "image/tile_image.hpp"
-#include "raster/tile.hpp"
 #include "trace/fragment.hpp"
+#include "trace/pixel.hpp"
 #include "trace/program.hpp"
 #include "trace/visible.hpp"
 
@@ -30,8 +28,8 @@ class TracedFrame {
         }
     }
 
-    [[nodiscard]] std::optional<VisibleTriangle> visible(int x, int y) const {
-        return visible_triangle({m_draws, m_view.viewport, {m_scene.width, m_scene.height}}, x, y);
+    [[nodiscard]] std::vector<VisibleTriangle> visible(int x, int y) const {
+        return visible_triangles({m_draws, m_view.viewport, {m_scene.width, m_scene.height}}, x, y);
     }
 
     TracedFragment fragment(const VisibleTriangle& seen, int x, int y) {
@@ -45,7 +43,7 @@ class TracedFrame {
         TracedFragment out;
         out.object = number;
         out.material = object.material ? object.material->name : Material{}.name;
-        out.triangle = seen.triangle;
+        out.triangle = seen.setup.number;
         out.clipped = seen.setup.clipped != 0;
         out.depth = static_cast<double>(seen.depth);
         const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, out);
@@ -71,47 +69,6 @@ class TracedFrame {
     std::vector<std::unique_ptr<Draw>> m_draws;
 };
 
-/// Channels of the tile's first pixel as numbers.
-std::array<double, 4> channels(const TileImage& image) {
-    std::array<double, 4> result{};
-    const auto read = [&]<class Channel>(Channel) {
-        Channel values[4];
-        std::memcpy(values, image.pixels(), sizeof values);
-        for (std::size_t c = 0; c < 4; ++c) result[c] = static_cast<double>(values[c]);
-    };
-    switch (image.format()) {
-        case PixelFormat::rgba8:
-            read(std::uint8_t{});
-            break;
-        case PixelFormat::rgba16:
-            read(std::uint16_t{});
-            break;
-        case PixelFormat::rgba32f:
-            read(float{});
-            break;
-    }
-    return result;
-}
-
-/// What the frame keeps of a fragment, or of none.
-std::array<double, 4> stored_pixel(const Scene& scene,
-                                   const std::optional<TracedFragment>& fragment) {
-    TileImage image(scene.format);
-    image.set_background(scene.background);
-    image.clear();
-    if (!fragment) return channels(image);
-    AlignedVector<std::int16_t> planes(4 * kPacketSize);
-    for (std::size_t c = 0; c < 4; ++c) {
-        planes[c * kPacketSize] = static_cast<std::int16_t>(fragment->codes[c]);
-    }
-    const std::uint16_t pixel = 0;
-    Packet packet{1, &pixel, nullptr, planes.data(), nullptr, nullptr, nullptr};
-    const StoreCtx store{{0, 1, 2, 3}, static_cast<StoreFormat>(scene.format), image.pixels()};
-    const bool nine_bit = scene.machine.numbers == NumberModel::nine_bit;
-    (nine_bit ? table_reference().store_nine_bit : table_reference().store_wide)(packet, store);
-    return channels(image);
-}
-
 }  // namespace
 
 PixelTrace trace_pixel(const Scene& scene, int x, int y) {
@@ -130,8 +87,13 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
     // In the floating-point environment of the renderer's workers, whatever the caller's is.
     WorkerPool(1).run([&](int) {
         TracedFrame frame(scene);
-        if (const auto seen = frame.visible(x, y)) trace.fragment = frame.fragment(*seen, x, y);
-        trace.stored = stored_pixel(scene, trace.fragment);
+        TracedPixel pixel(scene);
+        for (const VisibleTriangle& seen : frame.visible(x, y)) {
+            if (trace.fragment) trace.below.push_back(std::move(*trace.fragment));
+            trace.fragment = frame.fragment(seen, x, y);
+            pixel.take(*trace.fragment, scene.objects[seen.setup.draw].raster.blend);
+        }
+        trace.stored = pixel.channels();
     });
     return trace;
 }

@@ -1,23 +1,31 @@
 #include "trace/visible.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "raster/bin.hpp"
 #include "raster/tile.hpp"
+#include "shade/packets.hpp"
 
 namespace burnish {
 
 namespace {
 
-/// The last fragment of a pixel, chunk after chunk as the renderer does when its bins are full.
+/// The fragments of a pixel in the order of submission, each through the tests of its draw.
 class PixelWatch {
   public:
     PixelWatch(const FrameDraws& frame, std::int32_t x, std::int32_t y)
         : m_frame(frame),
-          m_tile_x(x / kTileSize),
-          m_tile_y(y / kTileSize),
-          m_pixel(tile_index(x % kTileSize, y % kTileSize)) {
-        for (const auto& draw : frame.draws) m_rules.push_back(draw->depth);
+          m_x(x),
+          m_y(y),
+          m_pixel(tile_index(x % kTileSize, y % kTileSize)),
+          m_depth(kTilePixels, 1.0F),
+          m_block_far(kTileBlocks, 1.0F),
+          m_colors(4 * (kTilePixels + 1)) {
+        m_mask.blocks = std::uint64_t{1} << m_pixel / kBlockPixels;
+        m_mask.word[m_pixel / kBlockPixels] = std::uint64_t{1} << m_pixel % kBlockPixels;
     }
 
     void draw_all() {
@@ -32,7 +40,7 @@ class PixelWatch {
         }
     }
 
-    [[nodiscard]] const std::optional<VisibleTriangle>& found() const { return m_found; }
+    [[nodiscard]] const std::vector<VisibleTriangle>& found() const { return m_passed; }
 
   private:
     [[nodiscard]] ChunkSource source(std::uint32_t draw) const {
@@ -40,64 +48,80 @@ class PixelWatch {
         return {d.mesh(), draw, d.facing, m_frame.viewport, m_frame.size};
     }
 
-    void draw_chunk(std::uint32_t draw, std::size_t first, std::size_t last) {
-        m_chunk.fill(source(draw), first, last);
-        if (m_chunk.tile(m_tile_x, m_tile_y).empty()) return;
-        m_tile.begin(m_tile_x, m_tile_y, m_frame.size, m_depth.empty() ? nullptr : m_depth.data());
-        m_tile.draw(m_chunk, m_rules, table_reference());
-        m_depth.assign(m_tile.depth(), m_tile.depth() + kTilePixels);
-        if (const SetupTriangle* shown = shown_triangle()) {
-            const SetupTriangle setup = *shown;
-            const auto place = static_cast<std::size_t>(shown - m_chunk.triangles().data());
-            const std::size_t triangle = isolate(draw, first, place);
-            m_found = {triangle, setup, depth_alone()};
+    void draw_chunk(std::uint32_t number, std::size_t first, std::size_t last) {
+        m_chunk.fill(source(number), first, last);
+        const Draw& draw = *m_frame.draws[number];
+        for (const std::uint32_t place : m_chunk.tile(m_x / kTileSize, m_y / kTileSize)) {
+            const SetupTriangle& triangle = m_chunk.triangles()[place];
+            std::optional<float> depth = depth_alone(triangle);
+            if (!depth || !covers(triangle, draw.depth, m_depth, m_block_far)) continue;
+            if (draw.output.late_depth && !(depth = late_depth(draw, triangle))) continue;
+            if (!draw.output.blend) m_passed.clear();
+            m_passed.push_back({triangle, *depth});
         }
     }
 
-    const SetupTriangle* shown_triangle() {
-        const TileFragments fragments = m_tile.collect(table_reference());
-        const std::uint16_t* pixels = fragments.pixels;
-        for (std::size_t i = 0; i < fragments.triangles.size(); ++i) {
-            const std::uint16_t* const end = pixels + fragments.size[i];
-            if (std::find(pixels, end, m_pixel) != end) return fragments.triangles[i];
-            pixels = end;
-        }
-        return nullptr;
+    /// Whether the triangle covers the pixel and passes the rule there.
+    bool covers(const SetupTriangle& triangle, const DepthRule& rule, AlignedVector<float>& depth,
+                AlignedVector<float>& block_far) const {
+        const PixelRect& box = triangle.box;
+        if (m_x < box.x0 || m_x > box.x1 || m_y < box.y0 || m_y > box.y1) return false;
+        TileTriangle seen;
+        if (!tile_triangle(triangle, m_x / kTileSize, m_y / kTileSize, seen)) return false;
+        seen.x0 = seen.x1 = m_x % kTileSize;
+        seen.y0 = seen.y1 = m_y % kTileSize;
+        seen.pass_less = rule.pass_less;
+        seen.pass_equal = rule.pass_equal;
+        seen.pass_greater = rule.pass_greater;
+        seen.depth_write = rule.write;
+        PixelMask passed;
+        table_reference().cover(
+            {&seen, depth.data(), block_far.data(), passed.word.data(), &passed.blocks});
+        return passed.blocks != 0;
     }
 
-    /// Which triangle the one at `place` of the chunk from `first` on is: clipped ones take several
-    /// places, culled ones none. Leaves the chunk with it alone.
-    std::size_t isolate(std::uint32_t draw, std::size_t first, std::size_t place) {
-        std::size_t triangle = first;
-        for (std::size_t before = 0;; ++triangle) {
-            m_chunk.fill(source(draw), triangle, triangle + 1);
-            before += m_chunk.counts().binned;
-            if (before > place) return triangle;
-        }
+    /// The triangle's depth at the pixel, whatever was drawn there; nothing if it is not covered.
+    std::optional<float> depth_alone(const SetupTriangle& triangle) {
+        if (!covers(triangle, {1, 1, 1, 1}, m_alone, m_alone_far)) return std::nullopt;
+        return m_alone[m_pixel];
     }
 
-    /// Depth of the chunk's only triangle at the pixel, whatever the depth buffer kept.
-    float depth_alone() {
-        const std::vector<DepthRule> always(m_rules.size(), DepthRule{1, 1, 1, 1});
-        m_tile.begin(m_tile_x, m_tile_y, m_frame.size, nullptr);
-        m_tile.draw(m_chunk, always, table_reference());
-        return m_tile.depth()[m_pixel];
+    /// Shades the fragment into a pixel of NaNs, which no program leaves: dropped if they stay.
+    /// Returns its depth.
+    std::optional<float> late_depth(const Draw& draw, const SetupTriangle& triangle) {
+        FragmentOutput plain = draw.output;
+        plain.blend = std::nullopt;
+        float* const pixel = m_colors.data() + 4 * m_pixel;
+        std::fill_n(pixel, 4, std::numeric_limits<float>::quiet_NaN());
+        const float before = m_depth[m_pixel];
+        m_shader.begin(
+            {m_x / kTileSize * kTileSize,
+             m_y / kTileSize * kTileSize,
+             {StoreFormat::rgba32f, m_colors.data(), m_depth.data(), m_block_far.data()}});
+        m_shader.start_draw({&draw.shading, &plain, draw.mesh()}, table_reference());
+        m_shader.add(triangle, m_mask, table_reference());
+        m_shader.flush(table_reference());
+        if (std::isnan(pixel[3])) return std::nullopt;
+        if (draw.shading.depth_attribute < 0) return m_alone[m_pixel];
+        return draw.output.depth.write != 0 ? m_depth[m_pixel] : before;
     }
 
     FrameDraws m_frame;
-    std::int32_t m_tile_x, m_tile_y;
+    std::int32_t m_x, m_y;
     std::size_t m_pixel;
-    std::vector<DepthRule> m_rules;
-    std::vector<float> m_depth;  ///< of the tile; empty before the first chunk that touches it
+    PixelMask m_mask;                           ///< the pixel
+    AlignedVector<float> m_depth, m_block_far;  ///< of the tile; only the pixel's is used
+    AlignedVector<float> m_alone = m_depth, m_alone_far = m_block_far;
+    AlignedVector<float> m_colors;
+    PacketShader m_shader;
     Chunk m_chunk;
-    TileVisibility m_tile;
-    std::optional<VisibleTriangle> m_found;
+    std::vector<VisibleTriangle> m_passed;
 };
 
 }  // namespace
 
-std::optional<VisibleTriangle> visible_triangle(const FrameDraws& frame, std::int32_t x,
-                                                std::int32_t y) {
+std::vector<VisibleTriangle> visible_triangles(const FrameDraws& frame, std::int32_t x,
+                                               std::int32_t y) {
     PixelWatch watch(frame, x, y);
     watch.draw_all();
     return watch.found();

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
+#include <vector>
 
 #include "draw.hpp"
 
@@ -15,15 +15,16 @@ struct FrameDraws {
     FrameSize size;
 };
 
-/// The triangle that a pixel shows.
+/// A triangle whose fragment is in a pixel's colour.
 struct VisibleTriangle {
-    std::size_t triangle;  ///< of its draw, in the order of submission
-    SetupTriangle setup;   ///< of a clipped triangle, the piece that covers the pixel
-    float depth;           ///< window depth at the pixel
+    SetupTriangle setup;  ///< of a clipped triangle, the piece that covers the pixel
+    float depth;          ///< window depth at the pixel
 };
 
-/// Nothing where pixel (x, y), which lies in the frame, shows the background.
-std::optional<VisibleTriangle> visible_triangle(const FrameDraws& frame, std::int32_t x,
-                                                std::int32_t y);
+/// What is visible at pixel (x, y), which lies in the frame, in the order of submission: all that
+/// was blended after the last fragment that replaced the pixel's colour, which comes first if there
+/// was one. Nothing where the pixel shows the background.
+std::vector<VisibleTriangle> visible_triangles(const FrameDraws& frame, std::int32_t x,
+                                               std::int32_t y);
 
 }  // namespace burnish

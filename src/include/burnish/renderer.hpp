@@ -41,6 +41,20 @@ struct ShownRegister {
     std::size_t stages = kAllStages;
 };
 
+/// Geometry as the picture, of the fragments that the picture would show last; nothing is blended.
+/// Alpha is 1. Where there is no fragment all four channels are 0, or 1 with `depth`.
+///
+/// Frames of floats get numbers as they are. Others get them to the nearest code, clamped to 0 .. 1
+/// unless it says otherwise.
+enum class Aov {
+    depth,   ///< window depth, 0 .. 1, in r, g and b
+    normal,  ///< interpolated and normalised, world space; others x/2 + 1/2. Raw vertices: 0
+    tangent,
+    uv,        ///< r, g: what textures are sampled at, v downward; others u - floor(u). Of raw
+               ///< vertices the first coordinates, divided by q
+    triangle,  ///< r: number of the triangle, g: of the object; others a colour made of both
+};
+
 /// What a frame did. Counts do not depend on ISA or thread count; times do.
 struct FrameStats {
     std::uint64_t triangles = 0;             ///< submitted
@@ -77,9 +91,12 @@ class Renderer {
     /// Throws Error{bad_option}, too, for a register that the machine does not have.
     FrameStats render(const Scene& scene, Framebuffer& target, const ShownRegister& shown);
 
+    /// The same fragments with what is known of their geometry in place of colours.
+    FrameStats render(const Scene& scene, Framebuffer& target, Aov shown);
+
   private:
     FrameStats render_shown(const Scene& scene, Framebuffer& target,
-                            const std::optional<ShownRegister>& shown);
+                            const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     struct State;
     std::unique_ptr<State> m_state;
 };

@@ -63,6 +63,15 @@ struct ProgramMaterial {
     glm::vec3 lit_base{0.0F};
 };
 
+/// What a test lets pass: less is new < old, or tested < reference.
+enum class Comparison { never, less, equal, lequal, greater, notequal, gequal, always };
+
+/// Drops fragments by the alpha that the final combiner leaves.
+struct AlphaTest {
+    Comparison pass = Comparison::always;
+    float reference = 0.0F;  ///< [0, 1], rounded to the machine's code as colours are
+};
+
 /// How a surface reflects. Every map is RGBA8 data, never decoded from sRGB.
 struct Material {
     std::string name = "default";
@@ -78,17 +87,58 @@ struct Material {
     float map_scale = 0.0F;    ///< m of the two maps, needed if they are given: 1, 1/2, 1/4 or 1/8
     TexturePtr specular_map;   ///< multiplies ks, where the machine has a third unit
     std::optional<ProgramMaterial> program;  ///< instead of the model
+    AlphaTest alpha_test;
 };
 
-enum class DepthTest { never, less, equal, lequal, greater, notequal, gequal, always };
+using DepthTest = Comparison;
 enum class Cull { none, back, front };
 enum class Space { object, clip, window };
 enum class Topology { triangles, triangle_strip, triangle_fan, quads, quad_strip };
+
+/// What a colour is multiplied with before it is blended: in the alpha channel, `..._color` is
+/// alpha as well.
+enum class BlendFactor {
+    zero,
+    one,
+    src_color,
+    one_minus_src_color,
+    src_alpha,
+    one_minus_src_alpha,
+    dst_color,
+    one_minus_dst_color,
+    dst_alpha,
+    one_minus_dst_alpha,
+    constant_color,
+    one_minus_constant_color,
+};
+/// With both products: their sum, source - destination, destination - source; or the smaller or
+/// larger of source and destination themselves.
+enum class BlendEquation { add, subtract, reverse_subtract, min, max };
+
+/// What the frame keeps of a fragment's colour and of what it held before. The colour is rounded to
+/// the frame's format first; results stay within 0 .. 1 in every format (docs/numbers.md).
+struct Blend {
+    BlendFactor src = BlendFactor::one;
+    BlendFactor dst = BlendFactor::zero;
+    BlendEquation equation = BlendEquation::add;
+    glm::vec4 constant{0.0F};  ///< of the factors `constant_color`, [0, 1]
+
+    friend bool operator==(const Blend&, const Blend&) = default;
+    static constexpr Blend alpha() {
+        return {BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
+    }
+    static constexpr Blend premultiplied() {
+        return {BlendFactor::one, BlendFactor::one_minus_src_alpha};
+    }
+    static constexpr Blend add() { return {BlendFactor::one, BlendFactor::one}; }
+    static constexpr Blend multiply() { return {BlendFactor::dst_color, BlendFactor::zero}; }
+};
 
 struct RasterState {
     DepthTest depth_test = DepthTest::less;
     bool depth_write = true;
     Cull cull = Cull::none;
+    std::optional<Blend> blend = {};  ///< nothing: the colour replaces the frame's
 };
 
 /// One raw vertex. In window space `position` is x, y in pixels (y down, centres at .5), z in 0..1

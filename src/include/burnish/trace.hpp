@@ -77,7 +77,17 @@ struct TracedStage {
     std::vector<TracedRegister> registers;
 };
 
-/// The fragment that a pixel shows.
+/// What a blended fragment did to the pixel, in the frame's numbers: bytes, words or floats.
+struct TracedBlend {
+    Blend blend;
+    std::array<double, 4> source{};  ///< the fragment's colour, as the frame would store it
+    std::array<double, 4> source_factor{};
+    std::array<double, 4> destination{};  ///< what the frame held
+    std::array<double, 4> destination_factor{};
+    std::array<double, 4> result{};
+};
+
+/// A fragment that is in a pixel's colour.
 struct TracedFragment {
     std::size_t object = 0;    ///< of the scene
     std::string material;      ///< name
@@ -92,13 +102,17 @@ struct TracedFragment {
     std::vector<TracedStage> stages;
     std::array<int, 4> codes{};           ///< of the final combiner's result
     std::array<TracedNumber, 4> color{};  ///< the same as numbers
+    std::optional<TracedBlend> blend;     ///< nothing: the colour replaced the pixel's
 };
 
 struct PixelTrace {
     int x = 0, y = 0;
     Machine machine;
     int one = 0;                             ///< the code of 1 in the machine's registers
-    std::optional<TracedFragment> fragment;  ///< nothing: the background
+    std::optional<TracedFragment> fragment;  ///< the last one; nothing: the background
+    /// What shows through it where it was blended, in order: fragments blended before it and,
+    /// first, the one that replaced the pixel's colour, if there was one.
+    std::vector<TracedFragment> below;
     PixelFormat format = PixelFormat::rgba8;
     std::array<double, 4> stored{};  ///< r, g, b, a as the frame holds them: bytes, words or floats
 };

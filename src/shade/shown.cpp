@@ -1,0 +1,178 @@
+#include "shade/shown.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace burnish {
+
+namespace {
+
+std::uint8_t hash_byte(std::uint32_t h, int byte) {
+    return static_cast<std::uint8_t>(h >> 8 * byte);
+}
+
+/// The same for the same two numbers, and far apart for neighbours.
+std::uint32_t hash_of(std::uint32_t object, std::uint32_t triangle) {
+    std::uint32_t h = triangle * 0x9e3779b1U ^ (object + 1) * 0x85ebca77U;
+    h = (h ^ h >> 15) * 0x2c1b3c6dU;
+    h = (h ^ h >> 12) * 0x297a2d39U;
+    return h ^ h >> 15;
+}
+
+/// Channels of one pixel, not yet coded.
+using Channels = std::array<float, 4>;
+
+void write_pixel(const Channels& channels, std::uint16_t pixel, const OutputTile& tile) {
+    const std::size_t at = 4 * std::size_t{pixel};
+    if (tile.format == StoreFormat::rgba32f) {
+        std::copy(channels.begin(), channels.end(), static_cast<float*>(tile.pixels) + at);
+        return;
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+        const float x = channels[c] > 0.0F ? std::min(channels[c], 1.0F) : 0.0F;
+        if (tile.format == StoreFormat::rgba8) {
+            static_cast<std::uint8_t*>(tile.pixels)[at + c] =
+                static_cast<std::uint8_t>(x * 255.0F + 0.5F);
+        } else {
+            static_cast<std::uint16_t*>(tile.pixels)[at + c] =
+                static_cast<std::uint16_t>(x * 65535.0F + 0.5F);
+        }
+    }
+}
+
+/// Channels of the fragments of a packet.
+class ValueReader {
+  public:
+    ValueReader(const ShownValues& shown, const Packet& packet, const float* own_depths,
+                bool floats)
+        : m_aov(*shown.aov),
+          m_count(shown.values.interpolated()),
+          m_packet(packet),
+          m_own_depths(own_depths),
+          m_floats(floats) {}
+
+    [[nodiscard]] Channels operator()(const ShownRun& run, int i) const {
+        switch (m_aov) {
+            case Aov::depth: {
+                const float z = m_own_depths != nullptr ? m_own_depths[i] : depth(run.depth, i);
+                return {z, z, z, 1.0F};
+            }
+            case Aov::normal:
+            case Aov::tangent:
+                return vector(i);
+            case Aov::uv:
+                return coordinates(i);
+            case Aov::triangle:
+                return number(run);
+        }
+        return {};
+    }
+
+  private:
+    /// As the kernels of the depth test have it.
+    [[nodiscard]] float depth(const DepthRun& run, int i) const {
+        const int pixel = m_packet.pixels[i];
+        const auto dx = static_cast<float>((pixel & 7) + (pixel >> 3 & 56) + run.offset_x);
+        const auto dy = static_cast<float>((pixel >> 3 & 7) + (pixel >> 6 & 56) + run.offset_y);
+        const float z = (run.z + dx * run.zx) + dy * run.zy;
+        return z < run.z_low ? run.z_low : z > run.z_high ? run.z_high : z;
+    }
+    [[nodiscard]] float attribute(int k, int i) const {
+        return m_packet.attributes[k * kAttributeStride + i];
+    }
+    [[nodiscard]] Channels vector(int i) const {
+        float v[3] = {0.0F, 0.0F, 0.0F};
+        if (m_count == 3) {
+            for (int k = 0; k < 3; ++k) v[k] = attribute(k, i);
+            const float length = std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
+            for (float& x : v) x = length > 0.0F ? x / length : 0.0F;
+        }
+        for (float& x : v) x = m_floats ? x : x * 0.5F + 0.5F;
+        return {v[0], v[1], v[2], 1.0F};
+    }
+    [[nodiscard]] Channels coordinates(int i) const {
+        float u = attribute(0, i), v = attribute(1, i);
+        if (m_count == 3) {
+            u = u / attribute(2, i);
+            v = v / attribute(2, i);
+        }
+        if (!m_floats) {
+            u = u - std::floor(u);
+            v = v - std::floor(v);
+        }
+        return {u, v, 0.0F, 1.0F};
+    }
+    [[nodiscard]] Channels number(const ShownRun& run) const {
+        if (m_floats) {
+            return {static_cast<float>(run.triangle), static_cast<float>(run.object), 0.0F, 1.0F};
+        }
+        const std::uint32_t h = hash_of(run.object, run.triangle);
+        const auto channel = [&](int byte) {
+            return static_cast<float>(hash_byte(h, byte)) / 255.0F;
+        };
+        return {channel(0), channel(1), channel(2), 1.0F};
+    }
+
+    Aov m_aov;
+    int m_count;
+    const Packet& m_packet;
+    const float* m_own_depths;
+    bool m_floats;
+};
+
+/// Adds `count` values per vertex; `value(vertex)` gives them.
+template <class F>
+void fill_values(Shading& shading, std::size_t vertices, int count, F&& value) {
+    for (int i = 0; i < count; ++i) shading.varying_list.push_back({Varying::Source::uv, i});
+    shading.varyings.reserve(vertices * static_cast<std::size_t>(count));
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const glm::vec3 x = value(v);
+        for (int i = 0; i < count; ++i) shading.varyings.push_back(x[i]);
+    }
+}
+
+}  // namespace
+
+ShownValues shown_values(Aov aov, const Object& object) {
+    ShownValues shown{aov, {}};
+    if (const auto* raw = std::get_if<RawVertices>(&object.geometry)) {
+        if (aov == Aov::uv) {
+            fill_values(shown.values, raw->vertices.size(), 3, [&](std::size_t v) {
+                const glm::vec4& uv = raw->vertices[v].uv[0];
+                return glm::vec3(uv.x, uv.y, uv.w);
+            });
+        }
+        return shown;
+    }
+    const auto& mesh = std::get<Mesh>(object.geometry);
+    const std::span<const VertexFrame> frames = mesh.frames();
+    const glm::mat3 world_from_object(object.world_from_object);
+    if (aov == Aov::uv) {
+        fill_values(shown.values, frames.size(), 2, [&](std::size_t v) {
+            return glm::vec3(frames[v].uv.x, 1.0F - frames[v].uv.y, 0.0F);
+        });
+    } else if (aov == Aov::normal || aov == Aov::tangent) {
+        fill_values(shown.values, frames.size(), 3, [&](std::size_t v) {
+            return world_from_object *
+                   (aov == Aov::normal ? frames[v].normal : glm::vec3(frames[v].tangent));
+        });
+    }
+    return shown;
+}
+
+glm::vec4 background_of(Aov aov) {
+    return aov == Aov::depth ? glm::vec4(1.0F) : glm::vec4(0.0F);
+}
+
+void write_values(const ShownValues& shown, const Packet& packet, std::span<const ShownRun> runs,
+                  const float* own_depths, const std::uint16_t* stored, const OutputTile& tile) {
+    const ValueReader channels(shown, packet, own_depths, tile.format == StoreFormat::rgba32f);
+    for (const ShownRun& run : runs) {
+        for (int i = run.depth.first; i < run.depth.first + run.depth.count; ++i) {
+            write_pixel(channels(run, i), stored[i], tile);
+        }
+    }
+}
+
+}  // namespace burnish
