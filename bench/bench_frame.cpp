@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/run_benchmarks.hpp"
 #include "core/cpu.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/clip.hpp"
@@ -257,10 +258,5 @@ void register_all() {
 
 int main(int argc, char** argv) {
     burnish::register_all();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::AddCustomContext("isa", burnish::available_tables().front()->isa);
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return burnish::run_benchmarks(argc, argv);
 }

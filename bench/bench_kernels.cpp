@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "bench/run_benchmarks.hpp"
 #include "core/cpu.hpp"
 #include "tests/kernel_packet.hpp"
-
-#if defined(__x86_64__)
-#include <x86intrin.h>
-#endif
 
 /// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
 /// compared with the reference before anything is timed. Items are fragments, vertices for
@@ -21,15 +17,6 @@
 /// item, which runs at the CPU's nominal clock.
 namespace burnish {
 namespace {
-
-/// 0 where there is no such counter.
-std::uint64_t cycles_so_far() {
-#if defined(__x86_64__)
-    return __rdtsc();
-#else
-    return 0;
-#endif
-}
 
 template <class Ctx>
 using PacketStage = void (*KernelTable::*)(Packet&, const Ctx&) noexcept;
@@ -44,10 +31,7 @@ void add(const std::string& name, std::int64_t items,
             if (!text.empty()) return state.SkipWithError(("not the reference: " + text).c_str());
             const std::uint64_t start = cycles_so_far();
             run(*table, state);
-            const auto cycles = static_cast<double>(cycles_so_far() - start);
-            const std::int64_t done = state.iterations() * items;
-            state.SetItemsProcessed(done);
-            if (cycles > 0.0) state.counters["cycles"] = cycles / static_cast<double>(done);
+            count_items(state, items, cycles_so_far() - start);
         };
         benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
     }
@@ -589,6 +573,61 @@ void add_blend(const std::string& name,
     }
 }
 
+/// A packet's list of stored pixels, and the depths of its tile.
+struct TestedTile {
+    AlignedVector<std::uint16_t> stored = AlignedVector<std::uint16_t>(kPacketSize + 16);
+    AlignedVector<float> depth = AlignedVector<float>(kTilePixels, 0.5F);
+    AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 0.5F);
+    bool operator==(const TestedTile&) const = default;
+};
+
+/// Tests of fragments; `run` does one.
+void add_fragment_test(const std::string& name, const PacketMemory& before,
+                       const std::function<void(const KernelTable&, Packet&, TestedTile&)>& run) {
+    const auto once = [=](const KernelTable& table) {
+        PacketMemory memory = before;
+        Packet packet = memory.view();
+        TestedTile tile;
+        std::copy_n(memory.pixels.begin(), kPacketSize, tile.stored.begin());
+        run(table, packet, tile);
+        tile.stored.resize(kPacketSize);
+        return tile;
+    };
+    add(
+        name, before.count,
+        [=](const KernelTable& table) -> std::string {
+            return once(table) == once(table_reference()) ? "" : "fragments or depths";
+        },
+        [=](const KernelTable& table, benchmark::State& state) {
+            PacketMemory memory = before;
+            Packet packet = memory.view();
+            TestedTile tile;
+            for (auto _ : state) {
+                std::copy_n(memory.pixels.begin(), kPacketSize, tile.stored.begin());
+                run(table, packet, tile);
+                benchmark::ClobberMemory();
+            }
+        });
+}
+
+void add_fragment_tests() {
+    Random random(6);
+    PacketMemory packet;
+    fill_planes(packet, random, 1, 0, 255);
+    for (int i = 0; i < kPacketSize; ++i) packet.attribute(0)[i] = random.real(-1.0F, 1.0F);
+    add_fragment_test("alpha_test", packet, [](const auto& table, Packet& p, TestedTile& tile) {
+        table.alpha_test(p, {0, 128, 0, 0, 1, tile.stored.data()});
+    });
+    add_fragment_test("keep", packet, [](const auto& table, Packet& p, TestedTile& tile) {
+        table.keep(p, {0, tile.stored.data()});
+    });
+    add_fragment_test("late_depth", packet, [](const auto& table, Packet& p, TestedTile& tile) {
+        const DepthRun run{0.45F, 0.001F, 0.001F, 0.0F, 1.0F, 0, kPacketSize, 0, 0};
+        table.late_depth(p, {&run, 1, -1, 1, 1, 0, 1, tile.depth.data(), tile.block_far.data(),
+                             tile.stored.data()});
+    });
+}
+
 void add_models() {
     Random random(5);
     PacketMemory nine_bit;
@@ -605,25 +644,11 @@ void add_models() {
     add_blend("blend_wide", &KernelTable::blend_wide, wide);
 }
 
-std::string cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-    return "unknown";
-}
-
 }  // namespace
 }  // namespace burnish
 
 int main(int argc, char** argv) {
     using namespace burnish;
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    std::string isas;
-    for (const KernelTable* table : available_tables())
-        isas += (isas.empty() ? "" : ", ") + std::string(table->isa);
-    benchmark::AddCustomContext("isa", isas);
-    benchmark::AddCustomContext("cpu", cpu_name());
     add_transform();
     add_rasterize();
     add_collect();
@@ -633,6 +658,6 @@ int main(int argc, char** argv) {
     add_levels();
     add_texture_shader();
     add_models();
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
+    add_fragment_tests();
+    return run_benchmarks(argc, argv);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/fused_lobe.hpp"
+#include "bench/run_benchmarks.hpp"
 #include "core/cpu.hpp"
 #include "shade/output.hpp"
 #include "shade/shading.hpp"
@@ -186,14 +187,11 @@ void yardstick(benchmark::State& state, const KernelTable& table) {
 
 int main(int argc, char** argv) {
     using namespace burnish;
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     for (const KernelTable* table : available_tables()) {
         if (fused_lobe(*table) == nullptr) continue;
         benchmark::RegisterBenchmark(
             ("yardstick/two_stages_three_textures/" + std::string(table->isa)).c_str(),
             [table](benchmark::State& state) { yardstick(state, *table); });
     }
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
+    return run_benchmarks(argc, argv);
 }

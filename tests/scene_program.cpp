@@ -1,27 +1,21 @@
 // Programs in scene files: as file or text, with constants, switches and the machine's choices.
 #include <gtest/gtest.h>
 
-#include <burnish/error.hpp>
-#include <burnish/files.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tests/scratch_directory.hpp"
+#include "tests/scene_file.hpp"
 
 namespace burnish {
 namespace {
 
-class ScenePrograms : public ScratchDirectory {
+class ScenePrograms : public SceneFile {
   protected:
     static constexpr const char* kProgram =
         "'''!!RC1.0\n{ rgb { spare0 = expand(tex0) . "
         "expand(col0); } }\nout.rgb = spare0;\n'''\n";
 
-    Scene scene(const std::string& text) {
-        write(path("s.toml"), "schema = 1\n" + text);
-        return load_scene(path("s.toml")).scene;
-    }
     /// The program of a material whose table goes on with `text`.
     CombinerProgram program(const std::string& text) {
         const Scene s = scene("[[materials]]\nname = \"m\"\n" + text +
@@ -29,18 +23,7 @@ class ScenePrograms : public ScratchDirectory {
         return s.objects[0].material->program->combiners;
     }
     std::string complaint(const std::string& text) {
-        try {
-            program(text);
-        } catch (const Error& error) {
-            std::string what = error.what();
-            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-            const std::string root = directory().string() + "/";
-            for (std::size_t at = what.find(root); at != std::string::npos; at = what.find(root))
-                what.erase(at, root.size());
-            return what;
-        }
-        ADD_FAILURE() << "no error for: " << text;
-        return {};
+        return complaint_of([&] { program(text); });
     }
 };
 

@@ -1,27 +1,21 @@
 // Texture shaders in scene files: as file or text, with coordinates and the hardware's modes.
 #include <gtest/gtest.h>
 
-#include <burnish/error.hpp>
-#include <burnish/files.hpp>
 #include <burnish/renderer.hpp>
 #include <string>
 
-#include "tests/scratch_directory.hpp"
+#include "tests/scene_file.hpp"
 
 namespace burnish {
 namespace {
 
-class SceneTextureShaders : public ScratchDirectory {
+class SceneTextureShaders : public SceneFile {
   protected:
     static constexpr const char* kUnits = "units = [\"\", \"\", \"\"]\n";
     static constexpr const char* kDots =
         "texture_shader_text = '''!!TS1.0 pass_through(); dot_product_2d_1of2(tex0); "
         "dot_product_2d_2of2(tex0);'''\n";
 
-    Scene scene(const std::string& text) {
-        write(path("s.toml"), "schema = 1\n" + text);
-        return load_scene(path("s.toml")).scene;
-    }
     ProgramMaterial program(const std::string& text) {
         return *scene("[machine]\nprofile = \"nv2a\"\n[[materials]]\nname = \"m\"\n" + text +
                       "[[objects]]\nmaterial = \"m\"\nvertices = []\n")
@@ -29,18 +23,7 @@ class SceneTextureShaders : public ScratchDirectory {
                     .material->program;
     }
     std::string complaint(const std::string& text) {
-        try {
-            program(text);
-        } catch (const Error& error) {
-            std::string what = error.what();
-            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-            const std::string root = directory().string() + "/";
-            for (std::size_t at = what.find(root); at != std::string::npos; at = what.find(root))
-                what.erase(at, root.size());
-            return what;
-        }
-        ADD_FAILURE() << "no error for: " << text;
-        return {};
+        return complaint_of([&] { program(text); });
     }
 };
 
