@@ -41,13 +41,11 @@ void keep(Packet& packet, const KeepCtx& ctx) noexcept {
 void triangle_depths(const Packet& packet, const LateDepthCtx& ctx, float* out) {
     for (int r = 0; r < ctx.run_count; ++r) {
         const DepthRun run = ctx.runs[r];
-        const I32 offset_x(run.offset_x), offset_y(run.offset_y), seven(7), high(56);
+        const I32 offset_x(run.offset_x), offset_y(run.offset_y);
         const F32 z(run.z), zx(run.zx), zy(run.zy), z_low(run.z_low), z_high(run.z_high);
         for (int i = run.first; i < run.first + run.count; i += kLanes32) {
-            const I32 index = load_widened(packet.pixels + i);
-            const F32 x = to_float(((index & seven) | ((index >> 3) & high)) + offset_x);
-            const F32 y = to_float((((index >> 3) & seven) | ((index >> 6) & high)) + offset_y);
-            store(out + i, min(max((z + x * zx) + y * zy, z_low), z_high));
+            const PixelPositions pixel = positions(packet.pixels + i, offset_x, offset_y);
+            store(out + i, min(max((z + pixel.x * zx) + pixel.y * zy, z_low), z_high));
         }
     }
 }

@@ -4,13 +4,11 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
     const int attribute_count = ctx.attribute_count;
     for (int r = 0; r < ctx.run_count; ++r) {
         const Run run = ctx.runs[r];
-        const I32 offset_x(run.offset_x), offset_y(run.offset_y), seven(7), high(56);
+        const I32 offset_x(run.offset_x), offset_y(run.offset_y);
         for (int i = run.first; i < run.first + run.count; i += kLanes32) {
-            const I32 index = load_widened(packet.pixels + i);
-            const F32 x = to_float(((index & seven) | ((index >> 3) & high)) + offset_x);
-            const F32 y = to_float((((index >> 3) & seven) | ((index >> 6) & high)) + offset_y);
+            const PixelPositions pixel = positions(packet.pixels + i, offset_x, offset_y);
             const auto at_pixel = [&](const AttributePlane& plane) {
-                return (F32(plane.origin) + F32(plane.dx) * x) + F32(plane.dy) * y;
+                return (F32(plane.origin) + F32(plane.dx) * pixel.x) + F32(plane.dy) * pixel.y;
             };
             const F32 w = divide(F32(1.0F), at_pixel(run.planes[0]));
             float* out = packet.attributes + i;

@@ -83,15 +83,13 @@ void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
     float* const out = packet.attributes + how.out * kAttributeStride;
     for (int k = 0; k < ctx.runs.run_count; ++k) {
         const Run run = ctx.runs.runs[k];
-        const I32 offset_x(run.offset_x), offset_y(run.offset_y), seven(7), high(56);
+        const I32 offset_x(run.offset_x), offset_y(run.offset_y);
         for (int i = run.first; i < run.first + run.count; i += kLanes32) {
-            const I32 index = load_widened(packet.pixels + i);
-            const F32 x = to_float(((index & seven) | ((index >> 3) & high)) + offset_x);
-            const F32 y = to_float((((index >> 3) & seven) | ((index >> 6) & high)) + offset_y);
+            const PixelPositions pixel = positions(packet.pixels + i, offset_x, offset_y);
             const auto at = [&](int attribute) {
                 const AttributePlane& p = run.planes[attribute + 1];
                 const F32 dx(p.dx), dy(p.dy);
-                return Changing{(F32(p.origin) + dx * x) + dy * y, dx, dy};
+                return Changing{(F32(p.origin) + dx * pixel.x) + dy * pixel.y, dx, dy};
             };
             store(out + i, footprint(how, at));
         }

@@ -9,6 +9,7 @@
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 #include <burnish/trace.hpp>
+#include <cstring>
 #include <set>
 #include <string>
 
@@ -357,6 +358,18 @@ TEST(Multipass, RegistersAreThoseOfTheWholeProgram) {
     const std::vector<std::uint8_t> bytes = picture(scene, "");
     for (std::size_t c = 0; c < 4; ++c)
         EXPECT_EQ(trace.stored[c], bytes[4 * (30 * 96 + 50) + c]) << c;
+    // A register between the passes, and one within the first of them.
+    for (const std::size_t stages : {1U, 3U}) {
+        Framebuffer one(scene.width, scene.height), several(scene.width, scene.height);
+        Renderer renderer({.threads = 2});
+        renderer.render(ball(roomy()), one, ShownRegister{Register::spare1, stages});
+        renderer.render(scene, several, ShownRegister{Register::spare1, stages});
+        for (int y = 0; y < scene.height; ++y)
+            ASSERT_EQ(
+                std::memcmp(one.row(y), several.row(y), 4 * static_cast<std::size_t>(scene.width)),
+                0)
+                << stages << " stages, row " << y;
+    }
 }
 
 }  // namespace

@@ -348,8 +348,7 @@ class Splitter {
         return true;
     }
 
-    /// Implicit reads of a part that lies in a frame are the one thing that turning cannot help;
-    /// find_live() excludes them for the cut itself, and later cuts never bring them back.
+    /// What else the machine lacks, registers tex2 and later as places for results, say.
     [[nodiscard]] std::optional<std::string> why_invalid(const CombinerProgram& program) const {
         try {
             program.validate(m_machine);
