@@ -1,0 +1,285 @@
+#include "models/expression.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "core/dmath.hpp"
+
+namespace burnish {
+
+namespace {
+
+struct Leaf {
+    std::string_view name;
+    ExprOp op;
+    ValueKind kind;
+};
+constexpr std::array kLeaves{
+    Leaf{"n", ExprOp::parameter, ValueKind::vector},
+    Leaf{"t", ExprOp::parameter, ValueKind::vector},
+    Leaf{"b", ExprOp::parameter, ValueKind::vector},
+    Leaf{"alpha_x", ExprOp::parameter, ValueKind::scalar},
+    Leaf{"alpha_y", ExprOp::parameter, ValueKind::scalar},
+    Leaf{"N", ExprOp::parameter, ValueKind::scalar},
+    Leaf{"ks", ExprOp::parameter, ValueKind::color},
+    Leaf{"kd", ExprOp::parameter, ValueKind::color},
+    Leaf{"l", ExprOp::geometry, ValueKind::vector},
+    Leaf{"v", ExprOp::geometry, ValueKind::vector},
+    Leaf{"h", ExprOp::geometry, ValueKind::vector},
+    Leaf{"n_dot_l", ExprOp::geometry, ValueKind::scalar},
+    Leaf{"h_dot_l", ExprOp::geometry, ValueKind::scalar},
+};
+
+Binding later(Binding a, Binding b) {
+    return std::max(a, b);
+}
+
+ValueKind wider(ValueKind a, ValueKind b) {
+    return a == ValueKind::scalar ? b : a;
+}
+
+bool is_texel_scalar(const Expr& e) {
+    return e.kind == ValueKind::scalar && e.binding != Binding::pixel;
+}
+
+double exponential_of(double x) {
+    constexpr double kLog2E = 1.4426950408889634;
+    return dmath::exp2(x * kLog2E);
+}
+
+/// x^y, x counted as 0 where it is negative.
+double power_of(double x, double y) {
+    if (x <= 0.0 && y < 0.0) return std::numeric_limits<double>::infinity();
+    return dmath::pow(x, y);
+}
+
+}  // namespace
+
+struct ExprBuilder::Table {
+    using Key = std::tuple<ExprOp, ValueKind, std::string, double, double, double,
+                           std::vector<const Expr*>>;
+    std::map<Key, ExprPtr> nodes;
+};
+
+ExprBuilder::ExprBuilder() : m_table(std::make_unique<Table>()) {}
+ExprBuilder::~ExprBuilder() = default;
+
+void ExprBuilder::at(std::size_t line, std::size_t column) {
+    m_line = line;
+    m_column = column;
+}
+
+ExprPtr ExprBuilder::intern(Expr expr) {
+    std::vector<const Expr*> args;
+    for (const ExprPtr& arg : expr.args) args.push_back(arg.get());
+    Table::Key key{expr.op,      expr.kind,    expr.name, expr.value.x,
+                   expr.value.y, expr.value.z, args};
+    const auto at = m_table->nodes.find(key);
+    if (at != m_table->nodes.end()) return at->second;
+    expr.line = m_line;
+    expr.column = m_column;
+    auto made = std::make_shared<const Expr>(std::move(expr));
+    m_table->nodes.emplace(std::move(key), made);
+    return made;
+}
+
+ExprPtr ExprBuilder::number(double value) {
+    return intern({.op = ExprOp::constant,
+                   .kind = ValueKind::scalar,
+                   .binding = Binding::constant,
+                   .value = glm::dvec3(value),
+                   .name = {},
+                   .args = {}});
+}
+
+std::vector<std::string_view> ExprBuilder::leaf_names() {
+    std::vector<std::string_view> names;
+    for (const Leaf& leaf : kLeaves) names.push_back(leaf.name);
+    return names;
+}
+
+ExprPtr ExprBuilder::leaf(std::string_view name) {
+    const auto at = std::find_if(kLeaves.begin(), kLeaves.end(),
+                                 [&](const Leaf& leaf) { return leaf.name == name; });
+    if (at == kLeaves.end()) return nullptr;
+    return intern({.op = at->op,
+                   .kind = at->kind,
+                   .binding = at->op == ExprOp::geometry ? Binding::pixel : Binding::texel,
+                   .value = {},
+                   .name = std::string(name),
+                   .args = {}});
+}
+
+ExprPtr ExprBuilder::quantity(std::string name, const ExprPtr& value) {
+    if (value->binding == Binding::constant) return value;
+    return intern({.op = ExprOp::quantity,
+                   .kind = value->kind,
+                   .binding = Binding::texel,
+                   .value = {},
+                   .name = std::move(name),
+                   .args = {value}});
+}
+
+ExprPtr ExprBuilder::node(ExprOp op, ValueKind kind, std::vector<ExprPtr> args) {
+    Binding binding = Binding::constant;
+    for (const ExprPtr& arg : args) binding = later(binding, arg->binding);
+    Expr expr{.op = op, .kind = kind, .binding = binding, .value = {}, .name = {}, .args = args};
+    if (binding == Binding::constant) {
+        const glm::dvec3 value =
+            evaluate(expr, [](const Expr&) -> const glm::dvec3* { return nullptr; });
+        return intern({.op = ExprOp::constant,
+                       .kind = kind,
+                       .binding = binding,
+                       .value = value,
+                       .name = {},
+                       .args = {}});
+    }
+    return intern(std::move(expr));
+}
+
+ExprPtr ExprBuilder::add(const ExprPtr& a, const ExprPtr& b) {
+    if (is_number(*a, 0.0)) return b;
+    if (is_number(*b, 0.0)) return a;
+    return node(ExprOp::add, wider(a->kind, b->kind), {a, b});
+}
+
+ExprPtr ExprBuilder::multiply(const ExprPtr& a, const ExprPtr& b) {
+    if (is_number(*a, 1.0)) return b;
+    if (is_number(*b, 1.0)) return a;
+    // (g . Q) s = g . (Q s) for what is known at the texel: one quantity instead of a product.
+    const auto into_dot = [&](const ExprPtr& d, const ExprPtr& s) -> ExprPtr {
+        if (d->op != ExprOp::dot || !is_texel_scalar(*s)) return nullptr;
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+            if (d->args[i]->binding == Binding::pixel || d->args[1 - i]->op != ExprOp::geometry)
+                continue;
+            return dot(d->args[1 - i], multiply(d->args[i], s));
+        }
+        return nullptr;
+    };
+    if (ExprPtr inside = into_dot(a, b)) return inside;
+    if (ExprPtr inside = into_dot(b, a)) return inside;
+    // Constants first, so that they meet.
+    if (b->binding == Binding::constant && a->binding != Binding::constant) return multiply(b, a);
+    if (a->binding == Binding::constant && a->kind == ValueKind::scalar &&
+        b->op == ExprOp::multiply && b->args[0]->binding == Binding::constant)
+        return multiply(multiply(a, b->args[0]), b->args[1]);
+    return node(ExprOp::multiply, wider(a->kind, b->kind), {a, b});
+}
+
+ExprPtr ExprBuilder::divide(const ExprPtr& a, const ExprPtr& b) {
+    // What is known at the texel becomes a factor.
+    if (b->binding != Binding::pixel && a->binding == Binding::pixel)
+        return multiply(a, node(ExprOp::divide, ValueKind::scalar, {number(1.0), b}));
+    return node(ExprOp::divide, a->kind, {a, b});
+}
+
+ExprPtr ExprBuilder::negate(const ExprPtr& a) {
+    return multiply(number(-1.0), a);
+}
+
+ExprPtr ExprBuilder::dot(const ExprPtr& a, const ExprPtr& b) {
+    if (a->op == ExprOp::geometry && b->op == ExprOp::geometry) {
+        // h bisects l and v.
+        if (a->name == b->name) return number(1.0);
+        const ExprPtr hl = leaf("h_dot_l");
+        if (a->name == "h" || b->name == "h") return hl;
+        return add(multiply(number(2.0), multiply(hl, hl)), number(-1.0));
+    }
+    const bool swapped = b->op == ExprOp::geometry;
+    return node(ExprOp::dot, ValueKind::scalar, {swapped ? b : a, swapped ? a : b});
+}
+
+ExprPtr ExprBuilder::power(const ExprPtr& base, const ExprPtr& exponent) {
+    if (is_number(*exponent, 1.0)) return base;
+    if (is_number(*exponent, 2.0)) return multiply(base, base);
+    if (is_number(*exponent, 4.0)) {
+        const ExprPtr square = multiply(base, base);
+        return multiply(square, square);
+    }
+    return node(ExprOp::power, ValueKind::scalar, {base, exponent});
+}
+
+ExprPtr ExprBuilder::square_root(const ExprPtr& a) {
+    return node(ExprOp::square_root, ValueKind::scalar, {a});
+}
+ExprPtr ExprBuilder::exponential(const ExprPtr& a) {
+    return node(ExprOp::exponential, ValueKind::scalar, {a});
+}
+ExprPtr ExprBuilder::minimum(const ExprPtr& a, const ExprPtr& b) {
+    return node(ExprOp::minimum, wider(a->kind, b->kind), {a, b});
+}
+ExprPtr ExprBuilder::maximum(const ExprPtr& a, const ExprPtr& b) {
+    return node(ExprOp::maximum, wider(a->kind, b->kind), {a, b});
+}
+
+namespace {
+
+class Evaluation {
+  public:
+    explicit Evaluation(const Environment& environment) : m_environment(environment) {}
+
+    glm::dvec3 of(const Expr& e) {
+        if (e.op == ExprOp::constant) return e.value;
+        const auto at = m_known.find(&e);
+        if (at != m_known.end()) return at->second;
+        const glm::dvec3* given = m_environment(e);
+        const glm::dvec3 value = given != nullptr ? *given : computed(e);
+        m_known.emplace(&e, value);
+        return value;
+    }
+
+  private:
+    glm::dvec3 computed(const Expr& e) {
+        const auto arg = [&](std::size_t i) { return of(*e.args[i]); };
+        switch (e.op) {
+            case ExprOp::quantity:
+                return arg(0);
+            case ExprOp::add:
+                return arg(0) + arg(1);
+            case ExprOp::multiply:
+                return arg(0) * arg(1);
+            case ExprOp::divide:
+                return arg(0) / arg(1);
+            case ExprOp::dot: {
+                const glm::dvec3 a = arg(0), b = arg(1);
+                return glm::dvec3((a.x * b.x + a.y * b.y) + a.z * b.z);
+            }
+            case ExprOp::power:
+                return glm::dvec3(power_of(arg(0).x, arg(1).x));
+            case ExprOp::square_root:
+                return glm::dvec3(std::sqrt(arg(0).x));
+            case ExprOp::exponential:
+                return glm::dvec3(exponential_of(arg(0).x));
+            case ExprOp::minimum: {
+                const glm::dvec3 a = arg(0), b = arg(1);
+                return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+            }
+            case ExprOp::maximum: {
+                const glm::dvec3 a = arg(0), b = arg(1);
+                return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+            }
+            default:  // a leaf that nobody knows
+                return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+        }
+    }
+
+    const Environment& m_environment;
+    std::unordered_map<const Expr*, glm::dvec3> m_known;
+};
+
+}  // namespace
+
+glm::dvec3 evaluate(const Expr& expr, const Environment& environment) {
+    return Evaluation(environment).of(expr);
+}
+
+bool is_number(const Expr& expr, double value) {
+    return expr.op == ExprOp::constant && expr.kind == ValueKind::scalar && expr.value.x == value;
+}
+
+}  // namespace burnish
