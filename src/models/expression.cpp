@@ -47,6 +47,10 @@ bool is_texel_scalar(const Expr& e) {
     return e.kind == ValueKind::scalar && e.binding != Binding::pixel;
 }
 
+bool is_negation(const Expr& e) {
+    return e.op == ExprOp::multiply && is_number(*e.args[0], -1.0);
+}
+
 double exponential_of(double x) {
     constexpr double kLog2E = 1.4426950408889634;
     return dmath::exp2(x * kLog2E);
@@ -77,24 +81,27 @@ void ExprBuilder::at(std::size_t line, std::size_t column) {
 ExprPtr ExprBuilder::intern(Expr expr) {
     std::vector<const Expr*> args;
     for (const ExprPtr& arg : expr.args) args.push_back(arg.get());
-    Table::Key key{expr.op,      expr.kind,    expr.name, expr.value.x,
-                   expr.value.y, expr.value.z, args};
+    Table::Key key{expr.op, expr.kind, expr.name, expr.value.x, expr.value.y, expr.value.z, args};
     const auto at = m_table->nodes.find(key);
     if (at != m_table->nodes.end()) return at->second;
     expr.line = m_line;
     expr.column = m_column;
+    expr.id = m_table->nodes.size();
     auto made = std::make_shared<const Expr>(std::move(expr));
     m_table->nodes.emplace(std::move(key), made);
     return made;
 }
 
-ExprPtr ExprBuilder::number(double value) {
+ExprPtr ExprBuilder::constant(ValueKind kind, const glm::dvec3& value) {
     return intern({.op = ExprOp::constant,
-                   .kind = ValueKind::scalar,
+                   .kind = kind,
                    .binding = Binding::constant,
-                   .value = glm::dvec3(value),
+                   .value = value,
                    .name = {},
                    .args = {}});
+}
+ExprPtr ExprBuilder::number(double value) {
+    return constant(ValueKind::scalar, glm::dvec3(value));
 }
 
 std::vector<std::string_view> ExprBuilder::leaf_names() {
@@ -130,14 +137,9 @@ ExprPtr ExprBuilder::node(ExprOp op, ValueKind kind, std::vector<ExprPtr> args) 
     for (const ExprPtr& arg : args) binding = later(binding, arg->binding);
     Expr expr{.op = op, .kind = kind, .binding = binding, .value = {}, .name = {}, .args = args};
     if (binding == Binding::constant) {
-        const glm::dvec3 value =
-            evaluate(expr, [](const Expr&) -> const glm::dvec3* { return nullptr; });
-        return intern({.op = ExprOp::constant,
-                       .kind = kind,
-                       .binding = binding,
-                       .value = value,
-                       .name = {},
-                       .args = {}});
+        glm::dvec3 value;
+        Tape({&expr}, {}).run(nullptr, &value);
+        return constant(kind, value);
     }
     return intern(std::move(expr));
 }
@@ -145,6 +147,15 @@ ExprPtr ExprBuilder::node(ExprOp op, ValueKind kind, std::vector<ExprPtr> args) 
 ExprPtr ExprBuilder::add(const ExprPtr& a, const ExprPtr& b) {
     if (is_number(*a, 0.0)) return b;
     if (is_number(*b, 0.0)) return a;
+    // c - x - y = c + -1 (x + y): constants meet, and what is subtracted is one sum.
+    if (b->binding == Binding::constant && a->binding != Binding::constant) return add(b, a);
+    if (is_negation(*a) && is_negation(*b)) return negate(add(a->args[1], b->args[1]));
+    if (a->op == ExprOp::add && a->args[0]->op == ExprOp::constant) {
+        if (b->op == ExprOp::constant) return add(add(a->args[0], b), a->args[1]);
+        return add(a->args[0], add(a->args[1], b));
+    }
+    if (a->op != ExprOp::constant && b->op == ExprOp::add && b->args[0]->op == ExprOp::constant)
+        return add(b->args[0], add(a, b->args[1]));
     return node(ExprOp::add, wider(a->kind, b->kind), {a, b});
 }
 
@@ -175,6 +186,8 @@ ExprPtr ExprBuilder::divide(const ExprPtr& a, const ExprPtr& b) {
     // What is known at the texel becomes a factor.
     if (b->binding != Binding::pixel && a->binding == Binding::pixel)
         return multiply(a, node(ExprOp::divide, ValueKind::scalar, {number(1.0), b}));
+    if (a->kind != ValueKind::scalar && b->binding == Binding::pixel)
+        return multiply(a, divide(number(1.0), b));
     return node(ExprOp::divide, a->kind, {a, b});
 }
 
@@ -219,63 +232,61 @@ ExprPtr ExprBuilder::maximum(const ExprPtr& a, const ExprPtr& b) {
 
 namespace {
 
-class Evaluation {
-  public:
-    explicit Evaluation(const Environment& environment) : m_environment(environment) {}
-
-    glm::dvec3 of(const Expr& e) {
-        if (e.op == ExprOp::constant) return e.value;
-        const auto at = m_known.find(&e);
-        if (at != m_known.end()) return at->second;
-        const glm::dvec3* given = m_environment(e);
-        const glm::dvec3 value = given != nullptr ? *given : computed(e);
-        m_known.emplace(&e, value);
-        return value;
+glm::dvec3 computed(ExprOp op, const glm::dvec3& a, const glm::dvec3& b) {
+    switch (op) {
+        case ExprOp::add:
+            return a + b;
+        case ExprOp::multiply:
+            return a * b;
+        case ExprOp::divide:
+            return a / b;
+        case ExprOp::dot:
+            return glm::dvec3((a.x * b.x + a.y * b.y) + a.z * b.z);
+        case ExprOp::power:
+            return glm::dvec3(power_of(a.x, b.x));
+        case ExprOp::square_root:
+            return glm::dvec3(std::sqrt(a.x));
+        case ExprOp::exponential:
+            return glm::dvec3(exponential_of(a.x));
+        case ExprOp::minimum:
+            return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+        case ExprOp::maximum:
+            return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+        default:
+            return a;
     }
-
-  private:
-    glm::dvec3 computed(const Expr& e) {
-        const auto arg = [&](std::size_t i) { return of(*e.args[i]); };
-        switch (e.op) {
-            case ExprOp::quantity:
-                return arg(0);
-            case ExprOp::add:
-                return arg(0) + arg(1);
-            case ExprOp::multiply:
-                return arg(0) * arg(1);
-            case ExprOp::divide:
-                return arg(0) / arg(1);
-            case ExprOp::dot: {
-                const glm::dvec3 a = arg(0), b = arg(1);
-                return glm::dvec3((a.x * b.x + a.y * b.y) + a.z * b.z);
-            }
-            case ExprOp::power:
-                return glm::dvec3(power_of(arg(0).x, arg(1).x));
-            case ExprOp::square_root:
-                return glm::dvec3(std::sqrt(arg(0).x));
-            case ExprOp::exponential:
-                return glm::dvec3(exponential_of(arg(0).x));
-            case ExprOp::minimum: {
-                const glm::dvec3 a = arg(0), b = arg(1);
-                return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-            }
-            case ExprOp::maximum: {
-                const glm::dvec3 a = arg(0), b = arg(1);
-                return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-            }
-            default:  // a leaf that nobody knows
-                return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-        }
-    }
-
-    const Environment& m_environment;
-    std::unordered_map<const Expr*, glm::dvec3> m_known;
-};
+}
 
 }  // namespace
 
-glm::dvec3 evaluate(const Expr& expr, const Environment& environment) {
-    return Evaluation(environment).of(expr);
+Tape::Tape(const std::vector<const Expr*>& roots, const std::vector<const Expr*>& inputs)
+    : m_inputs(inputs.size()), m_values(inputs.size()) {
+    std::unordered_map<const Expr*, std::size_t> slots;
+    for (std::size_t i = 0; i < inputs.size(); ++i) slots.emplace(inputs[i], i);
+    const auto visit = [&](const auto& self, const Expr& e) -> std::size_t {
+        const auto at = slots.find(&e);
+        if (at != slots.end()) return at->second;
+        Step step{e.op, {0, 0}};
+        for (std::size_t i = 0; i < e.args.size(); ++i) step.args[i] = self(self, *e.args[i]);
+        const std::size_t slot = m_values.size();
+        const bool unknown = e.op == ExprOp::parameter || e.op == ExprOp::geometry;
+        m_values.push_back(unknown ? glm::dvec3(std::numeric_limits<double>::quiet_NaN())
+                                   : e.value);
+        if (e.args.empty()) step = {ExprOp::constant, {slot, slot}};
+        m_steps.push_back(step);
+        slots.emplace(&e, slot);
+        return slot;
+    };
+    for (const Expr* root : roots) m_roots.push_back(visit(visit, *root));
+}
+
+void Tape::run(const glm::dvec3* inputs, glm::dvec3* roots) {
+    std::copy_n(inputs, m_inputs, m_values.begin());
+    glm::dvec3* to = m_values.data() + m_inputs;
+    for (const Step& step : m_steps) {
+        *to++ = computed(step.op, m_values[step.args[0]], m_values[step.args[1]]);
+    }
+    for (const std::size_t root : m_roots) *roots++ = m_values[root];
 }
 
 bool is_number(const Expr& expr, double value) {

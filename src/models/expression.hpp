@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -46,6 +45,12 @@ struct Expr {
     std::vector<ExprPtr> args;
     std::size_t column = 0;  ///< from 1, where the text has it first
     std::size_t line = 1;
+    std::size_t id = 0;  ///< in the order in which nodes were made
+};
+
+/// An order that does not depend on addresses.
+struct ByAge {
+    bool operator()(const Expr* a, const Expr* b) const { return a->id < b->id; }
 };
 
 /// Makes nodes: folds constants, shares what is equal, brings texel factors into dot products.
@@ -60,6 +65,7 @@ class ExprBuilder {
     void at(std::size_t line, std::size_t column);
 
     ExprPtr number(double value);
+    ExprPtr constant(ValueKind kind, const glm::dvec3& value);
     /// A parameter or a value of the pixel by its name; null for an unknown one.
     ExprPtr leaf(std::string_view name);
     /// `value`, which depends on parameters only, under a name. Constants stay what they are.
@@ -85,12 +91,28 @@ class ExprBuilder {
     std::size_t m_line = 1, m_column = 1;
 };
 
-/// Values of the leaves: parameters, values of the pixel, or whatever the caller cuts the tree at.
-using Environment = std::function<const glm::dvec3*(const Expr&)>;
+/// Evaluates expressions again and again, in double precision and with the elementary functions
+/// that give the same bits everywhere. NaN and infinity are the caller's business.
+class Tape {
+  public:
+    /// @param inputs  nodes whose values the caller gives; nothing below them is looked into.
+    /// Leaves
+    ///                that are not among them are NaN.
+    Tape(const std::vector<const Expr*>& roots, const std::vector<const Expr*>& inputs);
 
-/// In double precision, with the elementary functions that give the same bits everywhere. A node for
-/// which `environment` has a value is not looked into. NaN and infinity are the caller's business.
-glm::dvec3 evaluate(const Expr& expr, const Environment& environment);
+    /// Values of the roots, in their order, for values of the inputs in theirs.
+    void run(const glm::dvec3* inputs, glm::dvec3* roots);
+
+  private:
+    struct Step {
+        ExprOp op;
+        std::size_t args[2];
+    };
+    std::size_t m_inputs;
+    std::vector<Step> m_steps;  ///< each fills the next value
+    std::vector<glm::dvec3> m_values;
+    std::vector<std::size_t> m_roots;
+};
 
 /// Whether `expr` is the scalar constant `value`.
 bool is_number(const Expr& expr, double value);

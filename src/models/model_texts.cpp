@@ -5,7 +5,8 @@ namespace burnish {
 // n.v is held above 1/32 where it divides: the table would have no bound.
 std::string_view model_text(Model model) {
     switch (model) {
-        case Model::blinn_phong:  // max(0, n.h)^N; near its peak h.t and h.b have more digits than n.h
+        case Model::blinn_phong:  // max(0, n.h)^N; near its peak h.t and h.b have more digits than
+                                  // n.h
             return R"(X = t
 Y = b
 s = max(0, 1 - dot(h, X)^2 - dot(h, Y)^2)

@@ -287,7 +287,7 @@ class Parser {
     }
 
     ExprPtr call(const Token& function) {
-        constexpr std::string_view kFunctions[] = {"dot", "sqrt", "pow", "exp",
+        constexpr std::string_view kFunctions[] = {"dot", "sqrt", "pow",  "exp",
                                                    "min", "max",  "clamp"};
         const std::string_view name = function.text;
         const std::size_t expected = name == "clamp" ? 3 : name == "sqrt" || name == "exp" ? 1 : 2;
@@ -322,8 +322,7 @@ class Parser {
     }
 
     void deeper(const Token& at) {
-        if (++m_depth > kDeepest)
-            fail(at, fmt::format("more than {} levels of nesting", kDeepest));
+        if (++m_depth > kDeepest) fail(at, fmt::format("more than {} levels of nesting", kDeepest));
     }
     static void require(const Token& at, const ExprPtr& e, ValueKind kind) {
         if (e->kind != kind)

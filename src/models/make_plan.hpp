@@ -1,0 +1,31 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "models/plan.hpp"
+#include "models/terms.hpp"
+
+namespace burnish {
+
+/// What a quantity is over all texels.
+struct QuantityValues {
+    glm::dvec3 low{0.0}, high{0.0};        ///< component by component
+    double shortest = 0.0, longest = 0.0;  ///< of a vector: length
+};
+
+/// What a plan is made for.
+struct PlanTask {
+    const std::vector<ModelTerm>* terms = nullptr;
+    std::map<const Expr*, QuantityValues, ByAge> quantities;
+    double most_tilt = 0.0;  ///< largest |x| or |y| of the normals
+    glm::dvec3 light{1.0}, ambient{0.0};
+    NumberModel numbers = NumberModel::wide;
+    bool scaled_half_vector = true;  ///< the interpolators may scale it: half vectors of the pixel
+};
+
+/// Throws Error{bad_program} for what no table can hold.
+Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges);
+
+}  // namespace burnish
