@@ -53,7 +53,13 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
             store(p + kAttributeStride, dot(b, x) * half + half);
             store(p + 2 * kAttributeStride, dot(normal, x) * half + half);
         };
-        write(ctx.half_vector, normalised({l.x + v.x, l.y + v.y, l.z + v.z}));
+        if (ctx.half_vector >= 0 || ctx.h_dot_l >= 0) {
+            const Vector3 h = normalised({l.x + v.x, l.y + v.y, l.z + v.z});
+            write(ctx.half_vector, h);
+            if (ctx.h_dot_l >= 0) {
+                store(planes + ctx.h_dot_l * kAttributeStride + i, max(dot(h, l), zero));
+            }
+        }
         write(ctx.light_vector, l);
         write(ctx.view_vector, v);
         if (ctx.n_dot_l >= 0) {

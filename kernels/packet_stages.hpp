@@ -34,14 +34,14 @@ struct AttributesCtx {
 /// l = light - position * light_w, v = eye - position, both normalised by 1 / sqrt(dot(x, x));
 /// h = l + v, normalised likewise. dot(a, b) = (ax*bx + ay*by) + az*bz.
 /// A vector x leaves as three attribute planes dot(T, x) * 0.5 + 0.5, dot(B, x) * 0.5 + 0.5,
-/// dot(N, x) * 0.5 + 0.5; n_dot_l as one plane max(dot(N, l), 0).
+/// dot(N, x) * 0.5 + 0.5; n_dot_l as one plane max(dot(N, l), 0), h_dot_l as max(dot(h, l), 0).
 struct LightingCtx {
     int frame;       ///< first of 12 attribute planes: T, B, N, position, three components each
     float light[3];  ///< object space; towards the light where light_w is 0, else its position
     float light_w;   ///< 0 or 1
     float eye[3];    ///< object space
     int half_vector, light_vector, view_vector;  ///< first of three planes to write, or -1
-    int n_dot_l;                                 ///< plane to write, or -1
+    int n_dot_l, h_dot_l;                        ///< planes to write, or -1
 };
 
 /// One attribute plane to one register plane: code = int(min(max(x * one + 0.5, 0), one)) with

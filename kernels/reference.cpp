@@ -242,6 +242,7 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
         write(ctx.light_vector, l);
         write(ctx.view_vector, v);
         if (ctx.n_dot_l >= 0) attribute(packet, ctx.n_dot_l)[i] = maximum(dot(normal, l), 0.0F);
+        if (ctx.h_dot_l >= 0) attribute(packet, ctx.h_dot_l)[i] = maximum(dot(h, l), 0.0F);
     }
 }
 

@@ -384,7 +384,12 @@ units = []
 col0_rgb = "half_tangent"
 col0_a = "n_dot_l"
 col1_rgb = "view_tangent"
+col1_a = "h_dot_l"
+half_scale = [4, 4, 1.5]
 uv0 = "uv"
+uv1 = "half_coded"
+uv2 = "light_coded"
+uv3 = "view_coded"
 [[objects]]
 shape = "cube"
 material = "m"
@@ -393,7 +398,11 @@ material = "m"
     EXPECT_EQ(program.col0_rgb, ColorInput::half_tangent);
     EXPECT_EQ(program.col0_a, ColorInput::n_dot_l);
     EXPECT_EQ(program.col1_rgb, ColorInput::view_tangent);
-    EXPECT_EQ(program.col1_a, ColorInput::vertex);
+    EXPECT_EQ(program.col1_a, ColorInput::h_dot_l);
+    EXPECT_EQ(program.half_scale, glm::vec3(4.0F, 4.0F, 1.5F));
+    EXPECT_EQ(program.uv[1], CoordinateInput::half_coded);
+    EXPECT_EQ(program.uv[2], CoordinateInput::light_coded);
+    EXPECT_EQ(program.uv[3], CoordinateInput::view_coded);
 }
 
 TEST_F(SceneFiles, RawVerticesArriveWithTheirDefaults) {

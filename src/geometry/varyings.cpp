@@ -21,13 +21,13 @@ glm::vec3 normalised(const glm::vec3& v) {
 struct LitVertex {
     glm::vec3 normal{};                 // object space, x/2 + 1/2
     glm::vec3 half{}, light{}, view{};  // in the tangent frame, likewise
-    float n_dot_l = 0.0F;
+    float n_dot_l = 0.0F, h_dot_l = 0.0F;
 };
 
 /// Which of its vectors a list of varyings names.
 struct WantedVectors {
     explicit WantedVectors(std::span<const Varying> list)
-        : half(names(list, Varying::Source::half_tangent)),
+        : half(names(list, Varying::Source::half_tangent) || names(list, Varying::Source::h_dot_l)),
           light(names(list, Varying::Source::light_tangent)),
           view(names(list, Varying::Source::view_tangent)) {}
     static bool names(std::span<const Varying> list, Varying::Source source) {
@@ -47,7 +47,11 @@ LitVertex light_vertex(const VertexFrame& v, const LightSpace& space, const Want
     if (wanted.light) lit.light = coded(l);
     if (!wanted.half && !wanted.view) return lit;
     const glm::vec3 view = normalised(space.eye - v.position);
-    if (wanted.half) lit.half = coded(normalised(l + view));
+    if (wanted.half) {
+        const glm::vec3 half = normalised(l + view);
+        lit.half = coded(half);
+        lit.h_dot_l = std::max(dot(half, l), 0.0F);
+    }
     if (wanted.view) lit.view = coded(view);
     return lit;
 }
@@ -62,6 +66,8 @@ float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit)
             return v.view[varying.index];
         case Varying::Source::n_dot_l:
             return v.n_dot_l;
+        case Varying::Source::h_dot_l:
+            return v.h_dot_l;
         case Varying::Source::lit:
             return v.n_dot_l * lit.tint[varying.index] + lit.base[varying.index];
         case Varying::Source::normal:

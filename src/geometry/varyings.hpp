@@ -28,6 +28,7 @@ struct Varying {
         light_tangent,
         view_tangent,
         n_dot_l,  ///< max(0, normal . light)
+        h_dot_l,  ///< max(0, half vector . light)
         lit,      ///< n_dot_l * tint + base
         normal,   ///< component `index`, object space, x/2 + 1/2
     };

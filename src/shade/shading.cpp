@@ -48,6 +48,8 @@ Varying::Source source_of(const ColorSlot& slot) {
             return Varying::Source::view_tangent;
         case ColorInput::n_dot_l:
             return Varying::Source::n_dot_l;
+        case ColorInput::h_dot_l:
+            return Varying::Source::h_dot_l;
         case ColorInput::normal:
             return Varying::Source::normal;
         case ColorInput::lit:
@@ -74,7 +76,7 @@ class Planner {
         shading.frame_attributes =
             is_mesh ? kUvAttributes + (m_per_pixel ? kFrameAttributes : 0) : 0;
         m_lighting.half_vector = m_lighting.light_vector = m_lighting.view_vector = -1;
-        m_lighting.n_dot_l = -1;
+        m_lighting.n_dot_l = m_lighting.h_dot_l = -1;
         m_slots = color_slots(material, shading.program);
     }
 
@@ -98,8 +100,8 @@ class Planner {
         }
         plan_lighting(space);
         std::vector<InputOp>& inputs = m_shading.inputs;
-        inputs.insert(inputs.end(), encodings.begin(), encodings.end());
         inputs.insert(inputs.end(), m_vector_ops.begin(), m_vector_ops.end());
+        inputs.insert(inputs.end(), encodings.begin(), encodings.end());
         for (PlannedUnit& unit : m_shading.units) unit.first_op += inputs.size();
         inputs.insert(inputs.end(), m_texture_ops.begin(), m_texture_ops.end());
     }
@@ -109,17 +111,21 @@ class Planner {
         return input == ColorInput::half_tangent || input == ColorInput::light_tangent ||
                input == ColorInput::view_tangent;
     }
+    /// One number for every component.
+    [[nodiscard]] static bool is_cosine(ColorInput input) {
+        return input == ColorInput::n_dot_l || input == ColorInput::h_dot_l;
+    }
     [[nodiscard]] static int index_of(const ColorSlot& slot) {
-        return slot.input == ColorInput::n_dot_l ? 0 : slot.component;
+        return is_cosine(slot.input) ? 0 : slot.component;
     }
     /// Vectors and `lit` have three components, and a mesh has no vertex colour.
     [[nodiscard]] bool carries_something(const ColorSlot& slot) const {
         if (slot.input == ColorInput::vertex) return !m_is_mesh;
-        return slot.input == ColorInput::n_dot_l || slot.component < 3;
+        return is_cosine(slot.input) || slot.component < 3;
     }
     [[nodiscard]] bool varies_per_vertex(const ColorSlot& slot) const {
         if (!carries_something(slot)) return false;
-        const bool lighting = is_vector(slot.input) || slot.input == ColorInput::n_dot_l;
+        const bool lighting = is_vector(slot.input) || is_cosine(slot.input);
         return !(lighting && m_per_pixel);
     }
 
@@ -134,6 +140,11 @@ class Planner {
 
     int attribute_of(const ColorSlot& slot) {
         if (!carries_something(slot)) return -1;
+        if (is_vector(slot.input)) return coded_component(slot.input, slot.component);
+        return plane_of(slot);
+    }
+    /// Attribute plane of what a vertex or the lighting stage delivers.
+    int plane_of(const ColorSlot& slot) {
         if (varies_per_vertex(slot)) return varying({source_of(slot), index_of(slot)});
         return lighting_plane(slot.input) + index_of(slot);
     }
@@ -147,6 +158,8 @@ class Planner {
                 return m_lighting.light_vector = kLightingAttributes + 3;
             case ColorInput::view_tangent:
                 return m_lighting.view_vector = kLightingAttributes + 6;
+            case ColorInput::h_dot_l:
+                return m_lighting.h_dot_l = kLightingAttributes + 10;
             default:
                 return m_lighting.n_dot_l = kLightingAttributes + 9;
         }
@@ -160,7 +173,8 @@ class Planner {
         }
         m_lighting.light_w = space.light_w;
         const bool used = m_lighting.half_vector >= 0 || m_lighting.light_vector >= 0 ||
-                          m_lighting.view_vector >= 0 || m_lighting.n_dot_l >= 0;
+                          m_lighting.view_vector >= 0 || m_lighting.n_dot_l >= 0 ||
+                          m_lighting.h_dot_l >= 0;
         if (used) m_shading.inputs.emplace_back(m_lighting);
     }
 
@@ -177,28 +191,44 @@ class Planner {
                         "'vertex'");
         }
         if (own) return input == CoordinateInput::uv && component < kUvAttributes ? component : -1;
-        return component < 3 ? vector_component(input, component) : -1;
+        if (component == 3) return -1;
+        const ColorInput vector = vector_of(input);
+        return is_coded(input) ? coded_component(vector, component)
+                               : affine_component(vector, component, 2.0F, -1.0F);
     }
 
-    /// 2 x - 1 of a vector's component, which comes coded.
-    int vector_component(CoordinateInput input, int component) {
-        const auto at = std::find_if(
-            m_vectors.begin(), m_vectors.end(),
-            [&](const VectorComponent& v) { return v.input == input && v.component == component; });
+    /// x/2 + 1/2 of a vector's component; the half vector scaled.
+    int coded_component(ColorInput vector, int component) {
+        const float scale =
+            vector == ColorInput::half_tangent ? m_material.half_scale[component] : 1.0F;
+        if (scale == 1.0F) return plane_of({Register::col0, component, vector, -1});
+        return affine_component(vector, component, scale, 0.5F - 0.5F * scale);
+    }
+
+    /// scale * c + offset of a vector's component, which comes coded as c.
+    int affine_component(ColorInput vector, int component, float scale, float offset) {
+        const int from = plane_of({Register::col0, component, vector, -1});
+        const auto at =
+            std::find_if(m_vectors.begin(), m_vectors.end(), [&](const VectorComponent& v) {
+                return v.from == from && v.scale == scale && v.offset == offset;
+            });
         if (at != m_vectors.end()) return at->plane;
-        const ColorSlot slot{Register::col0, component, color_input(input), -1};
-        const int from = m_per_pixel ? lighting_plane(slot.input) + component
-                                     : varying({source_of(slot), component});
         const int to = m_free.attribute++;
-        m_vector_ops.emplace_back(AffineCtx{from, to, 2.0F, -1.0F, 1.0F});
-        m_vectors.push_back({input, component, to});
+        m_vector_ops.emplace_back(AffineCtx{from, to, scale, offset, 1.0F});
+        m_vectors.push_back({from, scale, offset, to});
         return to;
     }
-    static ColorInput color_input(CoordinateInput input) {
+    static bool is_coded(CoordinateInput input) {
+        return input == CoordinateInput::half_coded || input == CoordinateInput::light_coded ||
+               input == CoordinateInput::view_coded;
+    }
+    static ColorInput vector_of(CoordinateInput input) {
         switch (input) {
             case CoordinateInput::light_tangent:
+            case CoordinateInput::light_coded:
                 return ColorInput::light_tangent;
             case CoordinateInput::view_tangent:
+            case CoordinateInput::view_coded:
                 return ColorInput::view_tangent;
             default:
                 return ColorInput::half_tangent;
@@ -239,8 +269,8 @@ class Planner {
     }
 
     struct VectorComponent {
-        CoordinateInput input;
-        int component;
+        int from;  ///< attribute
+        float scale, offset;
         int plane;  ///< attribute
     };
 

@@ -18,13 +18,13 @@ inline constexpr int kUvAttributes = 2;
 inline constexpr int kFrameAttributes = 12;
 /// All that can be interpolated: the frame, or eight colours and sixteen coordinates; and `lit`.
 inline constexpr int kMaxInterpolated = 32;
-/// The three vectors and n.l that the lighting stage adds behind them.
+/// The three vectors, n.l and h.l that the lighting stage adds behind them.
 inline constexpr int kLightingAttributes = kMaxInterpolated;
 /// Scratch planes of samples.
-inline constexpr int kSampleScratch = kLightingAttributes + 10;
+inline constexpr int kSampleScratch = kLightingAttributes + 11;
 /// What texture units compute on the way to their coordinates lies behind these.
 inline constexpr int kUnitAttributes = kSampleScratch + kSampleAttributes;
-inline constexpr int kMaxAttributes = kUnitAttributes + 115;
+inline constexpr int kMaxAttributes = kUnitAttributes + 118;
 
 /// The input operations of a fetch between portions.
 struct StageSampling {

@@ -169,11 +169,15 @@ void ExactInputs::light(const LightingCtx& ctx) {
                                  glm::dot(normal, x) * 0.5 + 0.5};
         std::copy_n(coded, 3, m_attributes.begin() + k);
     };
-    write(ctx.half_vector, unit(l + v));
+    const glm::dvec3 h = unit(l + v);
+    write(ctx.half_vector, h);
     write(ctx.light_vector, l);
     write(ctx.view_vector, v);
     if (ctx.n_dot_l >= 0) {
         m_attributes[static_cast<std::size_t>(ctx.n_dot_l)] = std::max(glm::dot(normal, l), 0.0);
+    }
+    if (ctx.h_dot_l >= 0) {
+        m_attributes[static_cast<std::size_t>(ctx.h_dot_l)] = std::max(glm::dot(h, l), 0.0);
     }
 }
 
