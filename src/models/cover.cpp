@@ -197,8 +197,9 @@ const Cover::Way& Cover::best(const Expr& e) {
     }
     const bool hard = way.cost == kInfinity;
     for (const auto& cut : cuts(e)) {
+        // Of equal cuts the lowest, which leaves most to the table.
         const double cost = table_cost(e, cut);
-        if (cost >= way.cost) continue;
+        if (cost > way.cost || (cost == way.cost && !way.is_table) || cost == kInfinity) continue;
         way.cost = cost;
         way.is_table = true;
         way.cut.args.assign(cut.begin(), cut.end());

@@ -183,6 +183,7 @@ ExprPtr ExprBuilder::multiply(const ExprPtr& a, const ExprPtr& b) {
 }
 
 ExprPtr ExprBuilder::divide(const ExprPtr& a, const ExprPtr& b) {
+    if (b->binding == Binding::constant) return multiply(number(1.0 / b->value.x), a);
     // What is known at the texel becomes a factor.
     if (b->binding != Binding::pixel && a->binding == Binding::pixel)
         return multiply(a, node(ExprOp::divide, ValueKind::scalar, {number(1.0), b}));

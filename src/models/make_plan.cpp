@@ -492,9 +492,9 @@ class Planner {
         const Operand x = lower(arg);
         a.input = x.input;
         a.unit = x.unit;
-        const bool plain = x.input.mapping == Mapping::signed_identity ||
-                           x.input.mapping == Mapping::signed_negate;
-        a.is_signed = plain && m_ranges.of(arg).low < 0.0;
+        const Interval range = m_ranges.of(arg);
+        a.is_signed = (x.input.mapping == Mapping::signed_identity && range.low < 0.0) ||
+                      (x.input.mapping == Mapping::signed_negate && range.high > 0.0);
         if (arg.op == ExprOp::quantity) {
             const int index = m_plan.values[static_cast<std::size_t>(x.input.value)].index;
             const PlanQuantity& q = m_plan.quantities[static_cast<std::size_t>(index)];

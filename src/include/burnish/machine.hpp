@@ -81,6 +81,8 @@ struct Machine {
     /// Throws Error{bad_option} for a field outside its range, and for a choice of the nine-bit
     /// model on a wide machine.
     void validate() const;
+
+    friend bool operator==(const Machine&, const Machine&) = default;
 };
 
 /// The names that `machine_profile` knows, in order of age.
