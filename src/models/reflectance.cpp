@@ -126,11 +126,11 @@ double ashikhmin_shirley(const SurfaceFrame& frame, const glm::dvec3& l, const g
     const Angles a(frame, l, v, {1.0, 1.0});
     if (!a.above()) return 0.0;
     // a.q is 1 - (n.h)^2, without the cancellation.
-    const double power =
-        a.q > 0.0 ? std::pow(a.h_n, (exponents.u * square(glm::dot(a.h, frame.t)) +
-                                     exponents.v * square(glm::dot(a.h, frame.b))) /
-                                        a.q)
-                  : 1.0;
+    const double power = a.q > 0.0
+                             ? std::pow(a.h_n, (exponents.u * square(glm::dot(a.h, frame.t)) +
+                                                exponents.v * square(glm::dot(a.h, frame.b))) /
+                                                   a.q)
+                             : 1.0;
     const double h_v = glm::dot(a.h, v);
     return std::sqrt((exponents.u + 1.0) * (exponents.v + 1.0)) / (8.0 * pi) * power /
            (h_v * std::max(a.n_l, a.n_v)) * schlick_fresnel(f0, h_v);
@@ -159,8 +159,7 @@ double ggx(const SurfaceFrame& frame, const glm::dvec3& l, const glm::dvec3& v, 
                          square(alpha.y * glm::dot(frame.b, x)) + square(glm::dot(frame.n, x)));
     };
     const double visibility = 0.5 / (a.n_l * stretched(v) + a.n_v * stretched(l));
-    return ggx_distribution(frame, a.h, alpha) * visibility *
-           schlick_fresnel(f0, glm::dot(a.h, v));
+    return ggx_distribution(frame, a.h, alpha) * visibility * schlick_fresnel(f0, glm::dot(a.h, v));
 }
 
 }  // namespace burnish::reflectance

@@ -68,8 +68,8 @@ struct Widths {
 /// sqrt(1 - (l.t)^2): the largest n.l over all normals of a fibre. Kajiya and Kay 1989.
 [[nodiscard]] double fibre_diffuse(const glm::dvec3& t, const glm::dvec3& l) noexcept;
 
-/// exp(-q / (h.n)^2) / (4 pi alpha_x alpha_y sqrt((n.l) (n.v))); 0 unless both cosines are positive.
-/// Its directional albedo falls towards 0 at grazing angles. Ward, Measuring and Modeling
+/// exp(-q / (h.n)^2) / (4 pi alpha_x alpha_y sqrt((n.l) (n.v))); 0 unless both cosines are
+/// positive. Its directional albedo falls towards 0 at grazing angles. Ward, Measuring and Modeling
 /// Anisotropic Reflection, SIGGRAPH 1992, equation 5a, with the tangent of the angle between h and
 /// n in vectors as in Walter, Notes on the Ward BRDF, Cornell PCG-05-06, 2005.
 [[nodiscard]] double ward(const SurfaceFrame& frame, const glm::dvec3& l, const glm::dvec3& v,
