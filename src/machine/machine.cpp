@@ -36,7 +36,7 @@ Machine geforce256() {
     return machine;
 }
 
-/// Wide, so that texels are words; what else machines have, it has not.
+/// The formulas instead of a machine.
 Machine double_precision() {
     Machine machine;
     machine.name = "double";

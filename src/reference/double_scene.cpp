@@ -27,7 +27,7 @@ std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
     return vertices;
 }
 
-DoubleObject double_object(const Object& object, LayerFormat format) {
+DoubleObject double_object(const Object& object, const Machine& layer_machine) {
     static const Material kDefault;
     const Material& material = object.material ? *object.material : kDefault;
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
@@ -40,7 +40,7 @@ DoubleObject double_object(const Object& object, LayerFormat format) {
             {mesh->indices().begin(), mesh->indices().end()},
             glm::dmat4(object.world_from_object),
             material.model,
-            material_layer(material, format),
+            material_layer(material, layer_machine),
             object.raster.depth_test,
             object.raster.depth_write,
             object.raster.cull};
@@ -48,7 +48,7 @@ DoubleObject double_object(const Object& object, LayerFormat format) {
 
 }  // namespace
 
-DoubleScene double_scene(const Scene& scene, int width, int height) {
+DoubleScene double_scene(const Scene& scene, int width, int height, const Machine& layer_machine) {
     DoubleScene out;
     out.view = make_view(scene.camera, width, height);
     out.ambient = glm::dvec3(scene.ambient);
@@ -57,9 +57,8 @@ DoubleScene double_scene(const Scene& scene, int width, int height) {
         out.lights.push_back({glm::dvec3(light.position), light.position_w == 0.0F ? 0.0 : 1.0,
                               glm::dvec3(light.color) * static_cast<double>(light.intensity)});
     }
-    const LayerFormat format =
-        scene.machine.numbers == NumberModel::nine_bit ? LayerFormat::bytes : LayerFormat::words;
-    for (const Object& object : scene.objects) out.objects.push_back(double_object(object, format));
+    for (const Object& object : scene.objects)
+        out.objects.push_back(double_object(object, layer_machine));
     return out;
 }
 

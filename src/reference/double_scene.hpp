@@ -45,10 +45,9 @@ struct DoubleScene {
     std::vector<DoubleObject> objects;
 };
 
-/// `scene` for a frame of that size; its machine's number model says which texels the layer has:
-/// bytes of nine bits, words of the wide one. Throws Error{bad_program} for an object that has no
-/// reflectance model or is not drawn by depth alone, Error{bad_option} for a camera that sees
-/// nothing.
-DoubleScene double_scene(const Scene& scene, int width, int height);
+/// `scene` for a frame of that size, with the material layer that `layer_machine` works from.
+/// Throws Error{bad_program} for an object that has no reflectance model or is not drawn by depth
+/// alone, Error{bad_option} for a camera that sees nothing, and what material_layer throws.
+DoubleScene double_scene(const Scene& scene, int width, int height, const Machine& layer_machine);
 
 }  // namespace burnish::reference

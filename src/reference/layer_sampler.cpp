@@ -17,7 +17,7 @@ struct NamedQuantity {
     std::string_view name;
     glm::dvec3 Surface::*member;
 };
-constexpr std::array<NamedQuantity, 12> kQuantities{{{"n", &Surface::n},
+constexpr std::array<NamedQuantity, 14> kQuantities{{{"n", &Surface::n},
                                                      {"t", &Surface::t},
                                                      {"X", &Surface::X},
                                                      {"Y", &Surface::Y},
@@ -28,6 +28,8 @@ constexpr std::array<NamedQuantity, 12> kQuantities{{{"n", &Surface::n},
                                                      {"ks", &Surface::ks},
                                                      {"kd", &Surface::kd},
                                                      {"S", &Surface::S},
+                                                     {"A", &Surface::A},
+                                                     {"C", &Surface::C},
                                                      {"N", &Surface::N}}};
 
 /// Names of what the formulas of shade.cpp read.
@@ -37,8 +39,8 @@ std::span<const std::string_view> needed(Model model) {
     static constexpr std::string_view kBanks[] = {"t", "n", "ks", "kd", "N"};
     static constexpr std::string_view kKajiyaKay[] = {"t", "ks", "kd", "N"};
     static constexpr std::string_view kWard[] = {"X", "Y", "n", "S", "kd"};
-    static constexpr std::string_view kAshikhmin[] = {"U", "V", "n", "S", "ks", "kd"};
-    static constexpr std::string_view kGgx[] = {"X", "Y", "P", "Q", "n", "S", "ks", "kd"};
+    static constexpr std::string_view kAshikhmin[] = {"U", "V", "n", "A", "C", "kd"};
+    static constexpr std::string_view kGgx[] = {"X", "Y", "P", "Q", "n", "A", "C", "kd"};
     switch (model) {
         case Model::blinn_phong:
         case Model::abp:
@@ -92,6 +94,12 @@ glm::dvec3 texel_value(const Texture& texture, int x, int y, int channel, int co
     return value;
 }
 
+/// What filtered codes stand for; LayerQuantity::decoded in the C library's functions.
+glm::dvec3 decoded(const LayerQuantity& quantity, const glm::dvec3& code) {
+    const glm::dvec3 value = quantity.scale * code + quantity.offset;
+    return quantity.logarithmic ? glm::exp2(value) : value;
+}
+
 }  // namespace
 
 int wrapped_texel(int index, int size, Wrap wrap) {
@@ -133,8 +141,7 @@ LayerSampler::LayerSampler(Model model, std::span<const LayerQuantity> layer) {
         const auto* known = std::find_if(kQuantities.begin(), kQuantities.end(),
                                          [&](const NamedQuantity& q) { return q.name == name; });
         if (found->texture) {
-            m_textured.push_back({known->member, found->texture, found->channel, found->components,
-                                  found->scale, found->offset});
+            m_textured.push_back({known->member, *found});
         } else {
             m_constants.*known->member =
                 found->components == 1 ? glm::dvec3(found->constant.x) : found->constant;
@@ -144,10 +151,10 @@ LayerSampler::LayerSampler(Model model, std::span<const LayerQuantity> layer) {
 
 Surface LayerSampler::at(const glm::dvec2& uv) const {
     Surface surface = m_constants;
-    for (const Textured& t : m_textured) {
-        const glm::dvec3 code = sample_texture(*t.texture, uv, t.channel, t.components);
-        surface.*t.to = t.components == 1 ? glm::dvec3(t.scale.x * code.x + t.offset.x)
-                                          : t.scale * code + t.offset;
+    for (const auto& [to, quantity] : m_textured) {
+        const glm::dvec3 value = decoded(
+            quantity, sample_texture(*quantity.texture, uv, quantity.channel, quantity.components));
+        surface.*to = quantity.components == 1 ? glm::dvec3(value.x) : value;
     }
     return surface;
 }

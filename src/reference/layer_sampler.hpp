@@ -16,7 +16,9 @@ struct Surface {
     glm::dvec3 X{0.0}, Y{0.0};  ///< t and b over the widths
     glm::dvec3 U{0.0}, V{0.0};  ///< t and b times the roots of the exponents
     glm::dvec3 P{0.0}, Q{0.0};  ///< t and b times the widths
-    glm::dvec3 ks{0.0}, kd{0.0}, S{0.0}, N{0.0};
+    glm::dvec3 ks{0.0}, kd{0.0}, N{0.0};
+    glm::dvec3 S{0.0};          ///< ks times the lobe's height
+    glm::dvec3 A{0.0}, C{0.0};  ///< height times ks, which is F0, and 1 - ks
 };
 
 /// Texel of `size` that stands at place `index` of an endless row: -1 .. size, where -1 and `size`
@@ -41,9 +43,7 @@ class LayerSampler {
   private:
     struct Textured {
         glm::dvec3 Surface::*to;
-        TexturePtr texture;
-        int channel, components;
-        glm::dvec3 scale, offset;
+        LayerQuantity quantity;
     };
     Surface m_constants;
     std::vector<Textured> m_textured;

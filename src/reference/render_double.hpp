@@ -3,7 +3,9 @@
 #include <burnish/framebuffer.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "core/parallel.hpp"
 #include "reference/double_scene.hpp"
@@ -15,6 +17,9 @@ namespace burnish {
 struct DoubleOptions {
     int samples = 1;         ///< per pixel: a square up to kMaxDoubleSamples; 1: the centre
     std::uint32_t seed = 1;  ///< of where samples lie, if there are several
+    /// Whose texels are looked up; nothing: those of the scene's own machine, which are the finest
+    /// ones if that is profile double.
+    std::optional<Machine> layer_machine = {};
 };
 inline constexpr int kMaxDoubleSamples = 1024;
 

@@ -15,8 +15,7 @@ struct Directions {
 };
 
 /// What a light of colour 1 adds: specular and diffuse part with the cosine. Every lobe is clamped
-/// at 0; n.v is taken as at least 1/32 where a model divides by it, and a facet turned away from
-/// the light reflects nothing (docs/models.md).
+/// at 0, and n.v is taken as at least 1/32 where a model divides by it (docs/models.md).
 glm::dvec3 reflected(Model model, const Surface& surface, const Directions& to);
 
 }  // namespace burnish::reference

@@ -77,8 +77,8 @@ struct Machine {
     HalfVector half_vector = HalfVector::pixel;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
-    /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
-    /// the fields above only `numbers` counts: whose texels are looked up, bytes or words.
+    /// No machine: the formulas of the reflectance models in double precision (docs/models.md), with
+    /// half vectors per pixel. The other fields above mean nothing then.
     bool double_precision = false;
 
     /// Throws Error{bad_option} for a field outside its range, for a choice of the nine-bit model
