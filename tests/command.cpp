@@ -277,7 +277,7 @@ TEST_F(Command, BenchReportsOrderStatistics) {
 TEST_F(Command, InfoNamesWhatThereIs) {
     const Result json = run("info --json");
     EXPECT_EQ(json.code, 0);
-    EXPECT_SAYS(json.out, "\"profiles\": [\"geforce256\", \"nv2a\", \"ideal\"]");
+    EXPECT_SAYS(json.out, "\"profiles\": [\"geforce256\", \"nv2a\", \"ideal\", \"double\"]");
     EXPECT_SAYS(json.out, "\"reference\"");
     EXPECT_SAYS(json.out, "\"models\": [\"abp_modified\"]");
     EXPECT_SAYS(run("info").out, "burnish 0");

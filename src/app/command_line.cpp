@@ -153,6 +153,12 @@ Shown parse_aov(const std::string& text) {
                     text));
 }
 
+int root_of(int samples) {
+    for (int side = 1; side <= 32; ++side)
+        if (side * side == samples) return side;
+    fail(fmt::format("--samples {}, expected a square, 1 .. 1024", samples));
+}
+
 void add_aov(CLI::App& verb, std::optional<Shown>& shown) {
     verb.add_option_function<std::string>(
             "--aov", [&shown](const std::string& text) { shown = parse_aov(text); },
@@ -205,7 +211,7 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             [&picture](const std::string& name) {
                 picture.machine = known_word("--machine", name, machine_profile_names());
             },
-            "Machine profile: geforce256, nv2a or ideal")
+            "Machine profile: geforce256, nv2a or ideal; or double, formulas instead of a machine")
         ->type_name("PROFILE");
     verb.add_flag("--multipass", picture.multipass,
                   "Split programs that need more than the machine has into passes");
@@ -243,8 +249,9 @@ void add_render(CLI::App& verb, RenderOptions& options) {
     verb.add_option("-o,--output", options.output,
                     "Image file, PNG, EXR or other by extension; - writes PNG to standard output")
         ->type_name("FILE");
-    verb.add_option("--samples", options.samples, "Samples per pixel: 1, 4, 9 or 16")
-        ->check(CLI::IsMember({1, 4, 9, 16}))
+    verb.add_option_function<int>(
+            "--samples", [&options](int samples) { options.samples_side = root_of(samples); },
+            "Samples per pixel: 1, 4, 9 or 16; with profile double any square up to 1024")
         ->type_name("N");
     verb.add_option("--turntable", options.turntable,
                     "Pictures of one turn about the focal point; the output name holds {frame:4}")

@@ -45,9 +45,9 @@ using Shown = std::variant<ShownRegister, Aov>;
 
 struct RenderOptions {
     PictureOptions picture;
-    std::string output;  ///< empty: the input's stem + ".png"; "-": standard output
-    int samples = 1;     ///< per pixel: a square number
-    int turntable = 0;   ///< frames of one turn; 0: a single picture
+    std::string output;    ///< empty: the input's stem + ".png"; "-": standard output
+    int samples_side = 1;  ///< samples per pixel: its square
+    int turntable = 0;     ///< frames of one turn; 0: a single picture
     StatsFormat stats = StatsFormat::none;
     std::optional<Shown> shown;  ///< --aov
 };

@@ -113,10 +113,11 @@ Scene load_picture(const PictureOptions& options) {
     return std::move(loaded.scene);
 }
 
-Renderer make_renderer(const PictureOptions& options) {
+Renderer make_renderer(const PictureOptions& options, int double_samples) {
     RendererOptions renderer;
     renderer.threads = options.threads;
     renderer.isa = options.isa;
+    renderer.double_samples = double_samples;
     return Renderer(renderer);
 }
 

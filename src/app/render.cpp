@@ -41,9 +41,15 @@ PixelFormat frame_format(const RenderOptions& options, const Scene& scene,
     return options.shown && floats ? PixelFormat::rgba32f : scene.format;
 }
 
-int samples_side(int samples) {
-    int side = 1;
-    while (side * side < samples) ++side;
+/// How many times larger a picture is drawn to be averaged. The double renderer takes its samples
+/// itself.
+int enlargement(const RenderOptions& options, const Scene& scene) {
+    if (scene.machine.double_precision) return 1;
+    const int side = options.samples_side;
+    if (side > 4)
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("--samples {}, expected 1, 4, 9 or 16 with machine {}", side * side,
+                                scene.machine.name));
     return side;
 }
 
@@ -95,9 +101,9 @@ void report(const RenderOptions& options, const std::string& name, const Framebu
 void run(const RenderOptions& options) {
     const std::string pattern = output_pattern(options);
     numbered_name(pattern, 0);
-    Renderer renderer = make_renderer(options.picture);
+    Renderer renderer = make_renderer(options.picture, options.samples_side * options.samples_side);
     const Scene scene = load_picture(options.picture);
-    const int side = samples_side(options.samples);
+    const int side = enlargement(options, scene);
     const int frames = options.turntable > 0 ? options.turntable : 1;
     Framebuffer frame(scene.width, scene.height, frame_format(options, scene, pattern));
     Progress progress(frames, options.picture.quiet);

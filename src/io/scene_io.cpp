@@ -48,9 +48,6 @@ void read_output(const toml::table& table, Scene& scene) {
 
 Machine read_profile(const Section& section) {
     const std::string name = section.text("profile").value_or("ideal");
-    if (name == "double")
-        section.fail("profile",
-                     "'profile' = \"double\" in [machine] is not supported in this version");
     const std::vector<std::string_view> known = machine_profile_names();
     if (std::find(known.begin(), known.end(), name) == known.end())
         section.fail_unknown_word("profile", name, known);

@@ -36,6 +36,14 @@ Machine geforce256() {
     return machine;
 }
 
+/// The formulas instead of a machine.
+Machine double_precision() {
+    Machine machine;
+    machine.name = "double";
+    machine.double_precision = true;
+    return machine;
+}
+
 void check_range(const char* field, int value, int low, int high) {
     if (value >= low && value <= high) return;
     throw Error(ErrorCode::bad_option,
@@ -48,7 +56,12 @@ void Machine::validate() const {
     check_range("texture_units", texture_units, 1, 16);
     check_range("general_stages", general_stages, 0, 16);
     check_range("subpixel_bits", subpixel_bits, 4, 8);
-    if (numbers == NumberModel::nine_bit) return;
+    if (double_precision && half_vector == HalfVector::vertex) {
+        throw Error(ErrorCode::bad_option,
+                    "half_vector = vertex with profile double, which computes everything at every "
+                    "sample; expected pixel");
+    }
+    if (numbers == NumberModel::nine_bit || double_precision) return;
     const auto check_default = [](const char* field, bool is_default) {
         if (!is_default) {
             throw Error(ErrorCode::bad_option,
@@ -64,13 +77,14 @@ void Machine::validate() const {
 }
 
 std::vector<std::string_view> machine_profile_names() {
-    return {"geforce256", "nv2a", "ideal"};
+    return {"geforce256", "nv2a", "ideal", "double"};
 }
 
 Machine machine_profile(std::string_view name) {
     if (name == "geforce256") return geforce256();
     if (name == "nv2a") return nv2a();
     if (name == "ideal") return {};
+    if (name == "double") return double_precision();
     throw Error(ErrorCode::bad_option, fmt::format("unknown machine profile '{}', {}", name,
                                                    expected_one_of(name, machine_profile_names())));
 }
