@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/framebuffer.hpp>
+#include <burnish/materials.hpp>
 #include <burnish/shapes.hpp>
 #include <charconv>
 #include <cmath>
@@ -213,6 +214,17 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             },
             "Machine profile: geforce256, nv2a or ideal; or double, formulas instead of a machine")
         ->type_name("PROFILE");
+    verb.add_option("--material", picture.material,
+                    "Material file (.toml) for every mesh, instead of its own")
+        ->type_name("FILE");
+    verb.add_option_function<std::string>(
+            "--model",
+            [&picture](const std::string& name) {
+                picture.model = model_named(name);
+                if (!picture.model) known_word("--model", name, model_names());
+            },
+            "Reflectance model of every mesh, instead of its material's; `burnish info` lists them")
+        ->type_name("NAME");
     verb.add_flag("--multipass", picture.multipass,
                   "Split programs that need more than the machine has into passes");
     verb.add_option_function<std::string>(
@@ -325,6 +337,24 @@ void add_bake_brushed(CLI::App& verb, BakeBrushedOptions& options) {
         ->type_name("DIR-OR-PREFIX");
 }
 
+void add_bake_material(CLI::App& verb, BakeMaterialOptions& options) {
+    verb.add_option_function<std::string>(
+            "NAME",
+            [&options](const std::string& word) {
+                options.set = known_word("material", word, generated_set_names());
+            },
+            "brushed, lathe, cross_hatch, sunburst, orbital, corrosion, fingerprint or weave")
+        ->required()
+        ->type_name("");
+    verb.add_option("--seed", options.seed, "Another seed gives other marks")->type_name("N");
+    verb.add_option("--size", options.size, "Side of the square maps in texels")
+        ->check(CLI::Range(1, kMaxGeneratedSize))
+        ->type_name("N");
+    verb.add_option("-o,--output", options.output, "Directory, made if it is not there")
+        ->required()
+        ->type_name("DIR");
+}
+
 /// The parser and what it fills. Nothing moves: the parser keeps references.
 struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
@@ -334,12 +364,15 @@ struct Parser {
     CompileOptions compile;
     InfoOptions info;
     BakeBrushedOptions brushed;
+    BakeMaterialOptions material;
     BakeMeshOptions mesh;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
     CLI::App* trace_verb =
         app.add_subcommand("trace", "Every register after every stage at one pixel");
     CLI::App* bake_verb = app.add_subcommand("bake", "Material maps and test meshes as files");
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
+    CLI::App* material_verb = bake_verb->add_subcommand(
+        "material", "A generated material: maps, material file, true parameters");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
     CLI::App* compile_verb = app.add_subcommand("compile", "Checks and prints program texts");
@@ -356,6 +389,7 @@ struct Parser {
         add_compile(*compile_verb, compile);
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
+        add_bake_material(*material_verb, material);
         add_bake_mesh(*mesh_verb, mesh);
     }
 
@@ -366,6 +400,7 @@ struct Parser {
         if (compile_verb->parsed()) return compile;
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
+        if (material_verb->parsed()) return material;
         return mesh;
     }
 };

@@ -27,6 +27,8 @@ struct PictureOptions {
     std::vector<std::string> overrides;  ///< -D
     std::optional<glm::ivec2> size;
     std::optional<std::string> machine;
+    std::filesystem::path material;  ///< instead of the meshes' own, if not empty
+    std::optional<Model> model;      ///< instead of the materials' own
     bool multipass = false;
     std::optional<HalfVector> half_vector;
     CameraOptions camera;
@@ -81,6 +83,13 @@ struct BakeBrushedOptions {
     std::filesystem::path output;  ///< a directory, or what the four names begin with
 };
 
+struct BakeMaterialOptions {
+    std::string set;  ///< one of generated_set_names()
+    std::uint32_t seed = 1;
+    int size = 512;
+    std::filesystem::path output;  ///< a directory, made if need be
+};
+
 struct BakeMeshOptions {
     std::string shape;
     int columns = 64;  ///< of the grid; segments along the knot
@@ -94,7 +103,7 @@ struct PrintText {
 };
 
 using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                             InfoOptions, BakeBrushedOptions, BakeMeshOptions>;
+                             InfoOptions, BakeBrushedOptions, BakeMaterialOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

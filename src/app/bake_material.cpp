@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+#include <burnish/materials.hpp>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "app/material_text.hpp"
+#include "app/verbs.hpp"
+
+namespace burnish::app {
+namespace {
+
+/// Numbers of a set as an EXR file: `texel(i)` as r, g, b.
+template <class Texel>
+void save_truth(const GeneratedSet& set, const std::filesystem::path& path, const Texel& texel) {
+    Framebuffer frame(set.size, set.size, PixelFormat::rgba32f);
+    std::size_t i = 0;
+    for (int y = 0; y < set.size; ++y) {
+        for (int x = 0; x < set.size; ++x, ++i) {
+            const glm::vec4 value(texel(i), 1.0F);
+            std::memcpy(frame.row(y) + static_cast<std::size_t>(x) * sizeof value, &value,
+                        sizeof value);
+        }
+    }
+    save_image(frame, path);
+}
+
+std::string material_text(const GeneratedSet& set, std::string_view model, std::uint32_t seed) {
+    std::string text = fmt::format(
+        "# burnish bake material {} --seed {} --size {}\n"
+        "# The true numbers stand in the truth_*.exr files: direction and normal as they are;\n"
+        "# parameters: alpha_x, alpha_y, N; kd; ks.\n"
+        "schema = 1\n\n",
+        set.name, seed, set.size);
+    for (const char* name : {"direction", "normal", "alpha", "kd", "ks"})
+        text += texture_text(name, fmt::format("{}.png", name), set.tiles);
+    text += fmt::format("[material]\nname = \"{}\"\nmodel = \"{}\"\nencoding = \"d\"\n", set.name,
+                        model);
+    text += "direction_map = \"direction\"\nnormal_map = \"normal\"\n";
+    text += parameter_text("alpha_x", "alpha", 'r', set.alpha_x_range);
+    text += parameter_text("alpha_y", "alpha", 'g', set.alpha_y_range);
+    text += parameter_text("exponent", "alpha", 'b', set.exponent_range);
+    text += color_text("kd", "kd", set.kd_scale);
+    text += color_text("ks", "ks", set.ks_scale);
+    return text;
+}
+
+std::string_view name_of(Model model) {
+    for (const std::string_view name : model_names()) {
+        if (model_named(name) == model) return name;
+    }
+    return {};
+}
+
+}  // namespace
+
+void run(const BakeMaterialOptions& options) {
+    const GeneratedSet set = generated_set(options.set, options.seed, options.size);
+    const std::filesystem::path& directory = options.output;
+    std::error_code failure;
+    std::filesystem::create_directories(directory, failure);
+    if (failure)
+        throw Error(ErrorCode::io, fmt::format("{}: no directory can be made there: {}",
+                                               directory.string(), failure.message()));
+    save_image(set.direction_map, directory / "direction.png");
+    save_image(set.normal_map, directory / "normal.png");
+    save_image(set.alpha_map, directory / "alpha.png");
+    save_image(set.kd_map, directory / "kd.png");
+    save_image(set.ks_map, directory / "ks.png");
+    save_truth(set, directory / "truth_direction.exr",
+               [&](std::size_t i) { return glm::vec3(set.direction[i], 0.0F); });
+    save_truth(set, directory / "truth_normal.exr", [&](std::size_t i) { return set.normal[i]; });
+    save_truth(set, directory / "truth_parameters.exr", [&](std::size_t i) {
+        return glm::vec3(set.alpha_x[i], set.alpha_y[i], set.exponent[i]);
+    });
+    save_truth(set, directory / "truth_kd.exr", [&](std::size_t i) { return set.kd[i]; });
+    save_truth(set, directory / "truth_ks.exr", [&](std::size_t i) { return set.ks[i]; });
+    save_text(material_text(set, name_of(set.model), options.seed), directory / "material.toml");
+    fmt::print("{}: material.toml, five maps of {} x {}, five files of true numbers\n",
+               directory.string(), options.size, options.size);
+}
+
+}  // namespace burnish::app
