@@ -103,7 +103,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     for (const ModelTerm& term : terms) {
         if (term.scalar) roots.push_back(term.scalar.get());
     }
-    Cover cover(roots, ranges, machine.stage_fetches);
+    Cover cover(roots, ranges, machine.numbers, machine.stage_fetches);
     task.terms = &terms;
     task.light = light;
     task.ambient = ambient;
@@ -137,8 +137,8 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
         }
     }
     CompiledModel model = compile_model(*material, machine, light, ambient);
-    m_entries.push_back(std::make_unique<Entry>(
-        Entry{material, machine, light, ambient, std::move(model), true}));
+    m_entries.push_back(
+        std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), true}));
     return m_entries.back()->model;
 }
 

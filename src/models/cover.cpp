@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/table_domain.hpp"
+
 namespace burnish {
 
 namespace {
@@ -16,6 +18,9 @@ constexpr std::size_t kMostArguments = 2;
 
 /// In halves of a stage's portion: what a model is charged for.
 constexpr double kOperation = 1.0, kTable1d = 2.0, kTable2d = 3.5;
+
+/// And for interpolation that is off by the table's whole height.
+constexpr double kRoughness = 200.0;
 
 bool is_leaf(const Expr& e) {
     return e.op == ExprOp::constant || e.op == ExprOp::geometry || e.op == ExprOp::quantity ||
@@ -96,8 +101,9 @@ Interval Ranges::computed(const Expr& e) {
     }
 }
 
-Cover::Cover(const std::vector<const Expr*>& roots, Ranges& ranges, bool dependent_fetches)
-    : m_ranges(ranges), m_dependent_fetches(dependent_fetches) {
+Cover::Cover(const std::vector<const Expr*>& roots, Ranges& ranges, NumberModel numbers,
+             bool dependent_fetches)
+    : m_ranges(ranges), m_numbers(numbers), m_dependent_fetches(dependent_fetches) {
     for (const Expr* root : roots) choose(*root);
 }
 
@@ -149,7 +155,8 @@ double Cover::table_cost(const Expr& e, const NodeSet& cut) {
         of_pixel |= arg->binding == Binding::pixel;
         cost += best(*arg).cost;
     }
-    return of_pixel ? cost : kInfinity;
+    if (!of_pixel) return kInfinity;
+    return cost + kRoughness * table_domain(e, {cut.begin(), cut.end()}, m_ranges, m_numbers).error;
 }
 
 const Cover::Way& Cover::best(const Expr& e) {

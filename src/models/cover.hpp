@@ -1,5 +1,6 @@
 #pragma once
 
+#include <burnish/machine.hpp>
 #include <map>
 #include <set>
 #include <vector>
@@ -39,7 +40,9 @@ struct TableCut {
 class Cover {
   public:
     /// @param dependent_fetches  without them only powers of two can be had, by squaring
-    Cover(const std::vector<const Expr*>& roots, Ranges& ranges, bool dependent_fetches);
+    /// @param numbers  how fine tables can be
+    Cover(const std::vector<const Expr*>& roots, Ranges& ranges, NumberModel numbers,
+          bool dependent_fetches);
 
     /// How a node that is not a leaf is computed: null by the combiners.
     [[nodiscard]] const TableCut* table(const Expr& e) const;
@@ -59,6 +62,7 @@ class Cover {
     [[nodiscard]] bool bounded(const Expr& e);
 
     Ranges& m_ranges;
+    NumberModel m_numbers;
     bool m_dependent_fetches;
     std::map<const Expr*, Way, ByAge> m_best;
     std::map<const Expr*, std::vector<NodeSet>, ByAge> m_cuts;

@@ -1,5 +1,7 @@
 #include "models/expression.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -288,6 +290,43 @@ void Tape::run(const glm::dvec3* inputs, glm::dvec3* roots) {
         *to++ = computed(step.op, m_values[step.args[0]], m_values[step.args[1]]);
     }
     for (const std::size_t root : m_roots) *roots++ = m_values[root];
+}
+
+std::string print_expression(const Expr& e) {
+    const auto arg = [&](std::size_t i) { return print_expression(*e.args[i]); };
+    const auto binary = [&](const char* op) { return "(" + arg(0) + op + arg(1) + ")"; };
+    const auto call = [&](const char* name) {
+        return e.args.size() == 1 ? fmt::format("{}({})", name, arg(0))
+                                  : fmt::format("{}({}, {})", name, arg(0), arg(1));
+    };
+    switch (e.op) {
+        case ExprOp::constant:
+            if (e.kind == ValueKind::scalar) return fmt::format("{:.6g}", e.value.x);
+            return fmt::format("({:.6g}, {:.6g}, {:.6g})", e.value.x, e.value.y, e.value.z);
+        case ExprOp::add:
+            if (is_negation(*e.args[1]))
+                return fmt::format("({} - {})", arg(0), print_expression(*e.args[1]->args[1]));
+            return binary(" + ");
+        case ExprOp::multiply:
+            if (is_negation(e)) return "-" + arg(1);
+            return e.args[0] == e.args[1] ? arg(0) + "^2" : binary(" * ");
+        case ExprOp::divide:
+            return binary(" / ");
+        case ExprOp::power:
+            return binary("^");
+        case ExprOp::dot:
+            return call("dot");
+        case ExprOp::square_root:
+            return call("sqrt");
+        case ExprOp::exponential:
+            return call("exp");
+        case ExprOp::minimum:
+            return call("min");
+        case ExprOp::maximum:
+            return call("max");
+        default:
+            return e.name;
+    }
 }
 
 bool is_number(const Expr& expr, double value) {

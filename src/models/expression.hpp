@@ -114,6 +114,9 @@ class Tape {
     std::vector<std::size_t> m_roots;
 };
 
+/// In the language of models; quantities by their names.
+std::string print_expression(const Expr& expr);
+
 /// Whether `expr` is the scalar constant `value`.
 bool is_number(const Expr& expr, double value);
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/dmath.hpp"
+#include "models/table_domain.hpp"
 
 namespace burnish {
 
@@ -59,7 +60,10 @@ class Planner {
     Plan make() {
         // Tables first: how far their arguments need to reach.
         for (const Expr* e : m_cover.tables()) {
-            for (const Expr* arg : m_cover.table(*e)->args) limit(*arg, reach_of(*e, *arg));
+            const std::vector<const Expr*>& args = m_cover.table(*e)->args;
+            const TableDomain domain = table_domain(*e, args, m_ranges, m_task.numbers);
+            for (std::size_t i = 0; i < args.size(); ++i) limit(*args[i], domain.arguments[i].high);
+            m_domains.emplace(e, domain);
         }
         for (const ModelTerm& term : *m_task.terms) {
             if (term.scalar) limit_inverted(*term.scalar);
@@ -71,50 +75,6 @@ class Planner {
 
   private:
     // --- how far values need to reach ---------------------------------------------------------
-
-    /// A table's argument may stop where the function has come to rest: the least bound beyond
-    /// which it stays within `rest` of what it is at the far end, whatever the other argument is.
-    double reach_of(const Expr& table, const Expr& arg) {
-        const Interval range = m_ranges.of(arg);
-        if (range.low < 0.0 || arg.op == ExprOp::quantity) return range.high;
-        const std::vector<const Expr*>& args = m_cover.table(table)->args;
-        Tape tape({&table}, args);
-        constexpr int kSteps = 400, kOthers = 33;
-        const std::size_t own = args[0] == &arg ? 0 : 1;
-        const double rest = m_task.numbers == NumberModel::wide ? 0x1p-13 : 0x1p-9;
-        double peak = 0.0;
-        std::vector<double> deviation(kSteps + 1, 0.0);
-        for (int other = 0; other < (args.size() == 2 ? kOthers : 1); ++other) {
-            glm::dvec3 at[2]{};
-            if (args.size() == 2) {
-                const Interval o = m_ranges.of(*args[1 - own]);
-                at[1 - own] = glm::dvec3(o.low + (o.high - o.low) * other / (kOthers - 1));
-            }
-            const auto value = [&](double x) {
-                at[own] = glm::dvec3(x);
-                glm::dvec3 result;
-                tape.run(at, &result);
-                return result.x;
-            };
-            const double end = value(range.high);
-            for (int i = 0; i <= kSteps; ++i) {
-                const double y = value(position(range, i, kSteps));
-                const auto k = static_cast<std::size_t>(i);
-                deviation[k] = std::max(deviation[k], std::abs(y - end));
-                peak = std::max(peak, std::abs(y));
-            }
-        }
-        int last = kSteps;
-        while (last > 0 && deviation[static_cast<std::size_t>(last - 1)] <= rest * peak) --last;
-        return position(range, last, kSteps);
-    }
-
-    /// Steps that grow with the distance from the lower end: a thousandth of the range at first.
-    static double position(const Interval& range, int i, int steps) {
-        const double x = static_cast<double>(i) / steps;
-        const double span = range.high - range.low;
-        return range.low + span * (dmath::exp2(10.0 * x) - 1.0) / 1023.0;
-    }
 
     void limit(const Expr& e, double reach) {
         const auto [at, is_new] = m_reach.emplace(&e, reach);
@@ -476,7 +436,12 @@ class Planner {
     Operand table(const Expr& e) {
         const std::vector<const Expr*>& args = m_cover.table(e)->args;
         PlanTable t;
-        for (const Expr* arg : args) t.axes.push_back(axis(*arg));
+        const TableDomain& domain = m_domains.at(&e);
+        t.function = print_expression(e);
+        for (std::size_t i = 0; i < args.size(); ++i) {
+            t.axes.push_back(axis(*args[i], domain.arguments[i]));
+            t.axes.back().name = print_expression(*args[i]);
+        }
         fill(t, e, args);
         PlanValue v;
         v.op = PlanOp::table;
@@ -487,12 +452,11 @@ class Planner {
         return {{add(v), coded ? Mapping::expand : Mapping::signed_identity}, v.unit};
     }
 
-    PlanAxis axis(const Expr& arg) {
+    PlanAxis axis(const Expr& arg, const Interval& range) {
         PlanAxis a;
         const Operand x = lower(arg);
         a.input = x.input;
         a.unit = x.unit;
-        const Interval range = m_ranges.of(arg);
         a.is_signed = (x.input.mapping == Mapping::signed_identity && range.low < 0.0) ||
                       (x.input.mapping == Mapping::signed_negate && range.high > 0.0);
         if (arg.op == ExprOp::quantity) {
@@ -511,14 +475,18 @@ class Planner {
     void fill(PlanTable& t, const Expr& e, const std::vector<const Expr*>& args) {
         const bool wide = m_task.numbers == NumberModel::wide;
         Tape tape({&e}, args);
+        const std::vector<Interval>& domain = m_domains.at(&e).arguments;
         const auto value = [&](double x, double y) {
+            // Texels beyond the domain repeat its ends.
+            x = std::clamp(x, domain.front().low, domain.front().high);
+            y = std::clamp(y, domain.back().low, domain.back().high);
             glm::dvec3 at[2]{glm::dvec3(x), glm::dvec3(y)}, result;
             tape.run(at, &result);
             if (!(std::abs(result.x) < 1e6))
                 throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: a table that has no bound: {} at {}{}, expected "
-                                        "less than 10^6, as with max(1/32, ...)",
-                                        e.line, e.column, result.x, x,
+                            fmt::format("{}:{}: a table that has no bound: {} is {} at {}{}, "
+                                        "expected less than 10^6, as with max(1/32, ...)",
+                                        e.line, e.column, print_expression(e), result.x, x,
                                         args.size() == 2 ? fmt::format(", {}", y) : ""));
             return result.x;
         };
@@ -672,6 +640,7 @@ class Planner {
     Cover& m_cover;
     Ranges& m_ranges;
     Plan m_plan;
+    std::map<const Expr*, TableDomain, ByAge> m_domains;
     std::map<const Expr*, double, ByAge> m_reach;
     std::map<const Expr*, Operand, ByAge> m_lowered;
 };

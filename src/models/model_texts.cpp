@@ -41,14 +41,14 @@ Y = b / alpha_y
 S = ks / (4 * pi * alpha_x * alpha_y)
 q = dot(h, X)^2 + dot(h, Y)^2
 nl = max(0, dot(n, l))
-S * (sqrt(nl) / sqrt(max(1/32, dot(n, v)))) * exp(-q / max(3/8, dot(n, h))^2) + kd * nl)";
+S * (sqrt(nl) * (1 / sqrt(max(1/32, dot(n, v))))) * exp(-q / max(3/8, dot(n, h))^2) + kd * nl)";
         case Model::ward_half_vector:
             return R"(X = t / alpha_x
 Y = b / alpha_y
 S = ks / (4 * pi * alpha_x * alpha_y)
 q = dot(h, X)^2 + dot(h, Y)^2
 nl = max(0, dot(n, l))
-S * (sqrt(nl) / sqrt(max(1/32, dot(n, v)))) * exp(-2 * q / (1 + max(0, dot(n, h)))) + kd * nl)";
+S * (sqrt(nl) * (1 / sqrt(max(1/32, dot(n, v))))) * exp(-2 * q / (1 + max(0, dot(n, h)))) + kd * nl)";
         case Model::ward_duer:
             return R"(X = t / alpha_x
 Y = b / alpha_y

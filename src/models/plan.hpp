@@ -49,6 +49,7 @@ struct PlanValue {
 /// An axis of a table: coordinates run from -1 or 0 to 1; there the argument is unit *
 /// mapping(coordinate), or two to the power of low + that.
 struct PlanAxis {
+    std::string name;  ///< of the argument, in the language of models
     PlanInput input;
     double unit = 1.0;
     bool is_signed = false;
@@ -64,6 +65,7 @@ struct PlanAxis {
 
 /// A function of one or two arguments, for a fetch.
 struct PlanTable {
+    std::string function;  ///< in the language of models
     std::vector<PlanAxis> axes;
     std::vector<double> values;  ///< row after row; of -1 .. 1 times unit
     double unit = 1.0;
