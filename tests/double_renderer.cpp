@@ -107,6 +107,7 @@ double root_mean_square(const std::vector<glm::dvec4>& a, const std::vector<glm:
 struct PlaneHit {
     glm::dvec2 at;
     bool in_front;
+    double distance;  ///< along the line of sight
 };
 PlaneHit hit_plane(const DoubleScene& scene, FrameSize size, int x, int y) {
     const glm::dmat4 object_from_clip =
@@ -118,7 +119,10 @@ PlaneHit hit_plane(const DoubleScene& scene, FrameSize size, int x, int y) {
                          glm::dvec4(scene.view.eye, 1.0));
     const glm::dvec3 to = glm::dvec3(through) / through.w - eye;
     const double distance = -eye.z / to.z;
-    return {glm::dvec2(eye + to * distance), distance > 0.0};
+    const glm::dvec3 at = eye + to * distance;
+    const glm::dvec4 clip =
+        scene.view.clip_from_world * scene.objects[0].world_from_object * glm::dvec4(at, 1.0);
+    return {glm::dvec2(at), distance > 0.0, clip.w};
 }
 
 /// A floor seen from close above it, that reaches far behind the eye.
@@ -126,18 +130,19 @@ Scene floor_scene() {
     Scene scene = lit_scene(64, 48);
     scene.camera.position = {0.1F, 0.5F, 0.3F};
     scene.camera.focal_point = {0.0F, 0.0F, -2.0F};
-    scene.camera.near = 0.01F;
-    scene.camera.far = 1000.0F;
+    scene.camera.near = 1.0F;
+    scene.camera.far = 5.0F;
     scene.objects.push_back({Mesh(shapes::plane(2, 2)),
                              material_of(Model::abp),
                              placement({0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, -90.0F, 40.0F),
-                             {}});
+                             {.depth_test = DepthTest::always}});
     return scene;
 }
 
 TEST(DoubleRendererTest, CoordinatesAreThoseOfTheRay) {
     const DoubleScene scene = doubled(floor_scene());
     const FrameSize size{64, 48};
+    const auto pixels = pixels_of(scene, size);
     reference::ProjectionCounts counts;
     const auto triangles = reference::project(scene, size, counts);
     EXPECT_EQ(counts.submitted, 8U);
@@ -163,6 +168,10 @@ TEST(DoubleRendererTest, CoordinatesAreThoseOfTheRay) {
                 EXPECT_NEAR(uv.y, 0.5 - hit.at.y, 1e-11);  // v downward
             }
             EXPECT_EQ(hits, expected ? 1 : 0) << x << "," << y;
+            const bool background =
+                pixels[static_cast<std::size_t>(y * size.width + x)] == scene.background;
+            const bool in_range = hit.distance > 1.0 && hit.distance < 5.0;
+            EXPECT_EQ(background, !(expected && in_range)) << x << "," << y;
             inside += hits;
         }
     }
@@ -240,18 +249,14 @@ TEST(DoubleRendererTest, TurningMeshLightAndCameraTogetherChangesNothing) {
     }
 }
 
-Scene two_planes(DepthTest test, bool write = true) {
+Scene two_planes(DepthTest test, float second = 0.5F) {
     Scene scene = lit_scene(8, 8);
     scene.lights.clear();
-    const auto add = [&](float z, float grey, DepthTest depth_test, bool depth_write) {
-        auto material = material_of(Model::banks);
+    for (const auto& [z, depth_test] : {std::pair(0.0F, DepthTest::less), std::pair(second, test)})
         scene.objects.push_back({Mesh(shapes::plane(1, 1)),
-                                 material,
-                                 placement({0.0F, 0.0F, z}, {0.0F, 1.0F, 0.0F}, 0.0F, 2.0F + grey),
-                                 {.depth_test = depth_test, .depth_write = depth_write}});
-    };
-    add(0.0F, 0.0F, DepthTest::less, write);
-    add(0.5F, 0.0F, test, true);
+                                 material_of(Model::banks),
+                                 placement({0.0F, 0.0F, z}, {0.0F, 1.0F, 0.0F}, 0.0F, 2.0F),
+                                 {.depth_test = depth_test}});
     return scene;
 }
 
@@ -292,8 +297,12 @@ TEST(DoubleRendererTest, DepthTestsCompareWithWhatWasDrawnBefore) {
     Scene reversed = two_planes(DepthTest::less);
     std::swap(reversed.objects[0], reversed.objects[1]);
     EXPECT_EQ(object_seen(reversed), 0);
-    // Nothing written: the far plane is still 1.
-    EXPECT_EQ(object_seen(two_planes(DepthTest::greater, false)), 0);
+    EXPECT_EQ(object_seen(two_planes(DepthTest::less, 0.0F)), 0);
+    EXPECT_EQ(object_seen(two_planes(DepthTest::lequal, 0.0F)), 1);
+    EXPECT_EQ(object_seen(two_planes(DepthTest::equal, 0.0F)), 1);
+    // Nothing written by the near one, which comes first.
+    reversed.objects[0].raster.depth_write = false;
+    EXPECT_EQ(object_seen(reversed), 1);
     Scene empty = lit_scene(8, 8);
     EXPECT_EQ(pixels_of(empty)[36], glm::dvec4(empty.background));
 }
@@ -324,6 +333,12 @@ TEST(DoubleRendererTest, NothingBeyondNearAndFarIsSeen) {
     scene.camera.near = 0.1F;
     scene.camera.far = 1.9F;
     EXPECT_TRUE(background());
+    // Between, the near plane takes the cap off, and behind it the far side shows its back.
+    scene.camera.far = 10.0F;
+    scene.camera.near = 2.1F;
+    scene.objects[0].raster.cull = Cull::back;
+    EXPECT_EQ(pixels_of(scene)[8 * 16 + 8], glm::dvec4(scene.background));
+    EXPECT_FALSE(background());
 }
 
 TEST(DoubleRendererTest, TrianglesWithoutAFinitePlaceAreLeftOut) {

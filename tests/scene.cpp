@@ -202,11 +202,22 @@ TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
     const std::string material = "[[materials]]\nname = \"m\"\n";
     const std::vector<std::string> texts{
-        "[machine]\nprofile = \"double\"\n", "[machine]\nfilter_order = \"after\"\n",
-        "[machine]\nhalf_vector = \"cube:64\"\n", texture + "mipmaps = \"toksvig\"\n",
-        material + "normal_y = \"down\"\n"};
+        "[machine]\nfilter_order = \"after\"\n", "[machine]\nhalf_vector = \"cube:64\"\n",
+        texture + "mipmaps = \"toksvig\"\n", material + "normal_y = \"down\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
+}
+
+// What a scene says of its machine stays in the file when the double renderer draws it.
+TEST_F(SceneFiles, ProfileDoubleTakesTheKeysOfMachines) {
+    EXPECT_FALSE(scene("[machine]\nprofile = \"ideal\"\n").machine.double_precision);
+    const Machine machine =
+        scene("[machine]\nprofile = \"double\"\ntexture_units = 3\nproduct_rounding = \"shift8\"\n")
+            .machine;
+    EXPECT_TRUE(machine.double_precision);
+    EXPECT_EQ(machine.name, "double");
+    EXPECT_SAYS(bad("[machine]\nprofile = \"double\"\nhalf_vector = \"vertex\"\n"),
+                "expected \"pixel\" with profile double");
 }
 
 TEST_F(SceneFiles, DefaultValuesOfSuchKeysAreAccepted) {

@@ -82,7 +82,8 @@ class Progress {
 
 /// The lines that tell what was done. They leave standard output to data when there is any.
 void report(const RenderOptions& options, const std::string& name, const Framebuffer& frame,
-            const FrameStats& stats, const Renderer& renderer, double frame_ms) {
+            const FrameStats& stats, const Renderer& renderer, bool double_precision,
+            double frame_ms) {
     const bool data_on_stdout = name == "-" || options.stats == StatsFormat::json;
     std::FILE* stats_stream = name == "-" ? stderr : stdout;
     if (options.stats == StatsFormat::json)
@@ -90,7 +91,8 @@ void report(const RenderOptions& options, const std::string& name, const Framebu
     if (!options.picture.quiet)
         fmt::print(data_on_stdout ? stderr : stdout, "{}: {} x {}, {:.2f} ms, {}, {} thread{}\n",
                    name == "-" ? "standard output" : name, frame.width(), frame.height(), frame_ms,
-                   renderer.isa(), renderer.threads(), renderer.threads() == 1 ? "" : "s");
+                   double_precision ? "double precision" : renderer.isa(), renderer.threads(),
+                   renderer.threads() == 1 ? "" : "s");
     if (options.stats == StatsFormat::text || options.picture.verbose)
         fmt::print(data_on_stdout ? stderr : stats_stream, "{}",
                    stats_text(stats, renderer, frame_ms));
@@ -118,7 +120,9 @@ void run(const RenderOptions& options) {
         const std::string name = numbered_name(pattern, i);
         save_image(frame, name);
         progress.done(i + 1);
-        if (i + 1 == frames) report(options, pattern, frame, stats, renderer, frame_ms);
+        if (i + 1 == frames)
+            report(options, pattern, frame, stats, renderer, scene.machine.double_precision,
+                   frame_ms);
     }
 }
 

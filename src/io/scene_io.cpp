@@ -82,6 +82,11 @@ void read_machine(const toml::table& table, Scene& scene) {
     machine.multipass = section.boolean("multipass").value_or(machine.multipass);
     machine.half_vector =
         section.choice<HalfVector>("half_vector", kHalfVectors).value_or(machine.half_vector);
+    if (machine.double_precision && machine.half_vector == HalfVector::vertex)
+        section.fail(
+            "half_vector",
+            "'half_vector' = \"vertex\" in [machine], expected \"pixel\" with profile double, "
+            "which computes everything at every sample");
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);
     machine.snap_floor = section.choice<bool>("snap", kSnaps).value_or(machine.snap_floor);
     machine.validate();
