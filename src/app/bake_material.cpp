@@ -1,16 +1,15 @@
 #include <fmt/format.h>
 
-#include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <burnish/materials.hpp>
 #include <cstring>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "app/make_directory.hpp"
 #include "app/material_text.hpp"
 #include "app/verbs.hpp"
 
@@ -75,11 +74,7 @@ std::string_view name_of(Model model) {
 void run(const BakeMaterialOptions& options) {
     const GeneratedSet set = generated_set(options.set, options.seed, options.size);
     const std::filesystem::path& directory = options.output;
-    std::error_code failure;
-    std::filesystem::create_directories(directory, failure);
-    if (failure)
-        throw Error(ErrorCode::io, fmt::format("{}: no directory can be made there: {}",
-                                               directory.string(), failure.message()));
+    make_directory(directory);
     for (const auto& [name, image] : maps_of(set))
         save_image(*image, directory / fmt::format("{}.png", name));
     save_truth(set, directory / "truth_direction.exr",
