@@ -307,7 +307,7 @@ TEST_F(Command, InfoNamesWhatThereIs) {
     EXPECT_EQ(json.code, 0);
     EXPECT_SAYS(json.out, "\"profiles\": [\"geforce256\", \"nv2a\", \"ideal\", \"double\"]");
     EXPECT_SAYS(json.out, "\"reference\"");
-    EXPECT_SAYS(json.out, "\"models\": [\"abp_modified\"]");
+    EXPECT_SAYS(json.out, "\"models\": [\"blinn_phong\", \"abp\", \"abp_modified\",");
     EXPECT_SAYS(run("info").out, "burnish 0");
 }
 

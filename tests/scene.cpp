@@ -200,10 +200,14 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
 
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
-    const std::string material = "[[materials]]\nname = \"m\"\n";
     const std::vector<std::string> texts{
-        "[machine]\nfilter_order = \"after\"\n", "[machine]\nhalf_vector = \"cube:64\"\n",
-        texture + "mipmaps = \"toksvig\"\n", material + "normal_y = \"down\"\n"};
+        "[machine]
+filter_order = \"after\"
+", "[machine]
+half_vector = \"cube:64\"
+",
+        texture + "mipmaps = \"toksvig\"
+"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }
@@ -369,7 +373,7 @@ TEST_F(SceneFiles, MaterialErrors) {
         "[0,0,0,0]\n[[materials]]\nname = "
         "\"m\"\n";
     EXPECT_SAYS(bad(head + "model = \"wrd\"\n"),
-                "'model' = \"wrd\" in [[materials]], expected abp_modified");
+                "'model' = \"wrd\" in [[materials]], did you mean 'ward'?");
     EXPECT_SAYS(bad(head + "alpha_x = 0\n"), "expected a number above 0 and at most 1");
     EXPECT_SAYS(bad(head + "ks = [1, 1, 2]\n"), "value 2");
     EXPECT_SAYS(bad(head + "tangent_map = \"t\"\n"), "expected both or neither");

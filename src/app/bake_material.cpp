@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
-#include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <burnish/materials.hpp>
 #include <cstring>
 #include <filesystem>
-#include <system_error>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "app/make_directory.hpp"
 #include "app/material_text.hpp"
 #include "app/verbs.hpp"
 
@@ -28,6 +31,16 @@ void save_truth(const GeneratedSet& set, const std::filesystem::path& path, cons
     save_image(frame, path);
 }
 
+/// The maps that vary, and what their files are called.
+std::vector<std::pair<std::string_view, const Image8*>> maps_of(const GeneratedSet& set) {
+    std::vector<std::pair<std::string_view, const Image8*>> maps{{"alpha", &set.alpha_map}};
+    if (set.direction_varies) maps.emplace_back("direction", &set.direction_map);
+    if (set.normal_varies) maps.emplace_back("normal", &set.normal_map);
+    if (set.kd_varies) maps.emplace_back("kd", &set.kd_map);
+    if (set.ks_varies) maps.emplace_back("ks", &set.ks_map);
+    return maps;
+}
+
 std::string material_text(const GeneratedSet& set, std::string_view model, std::uint32_t seed) {
     std::string text = fmt::format(
         "# burnish bake material {} --seed {} --size {}\n"
@@ -35,16 +48,17 @@ std::string material_text(const GeneratedSet& set, std::string_view model, std::
         "# parameters: alpha_x, alpha_y, N; kd; ks.\n"
         "schema = 1\n\n",
         set.name, seed, set.size);
-    for (const char* name : {"direction", "normal", "alpha", "kd", "ks"})
+    for (const auto& [name, image] : maps_of(set))
         text += texture_text(name, fmt::format("{}.png", name), set.tiles);
     text += fmt::format("[material]\nname = \"{}\"\nmodel = \"{}\"\nencoding = \"d\"\n", set.name,
                         model);
-    text += "direction_map = \"direction\"\nnormal_map = \"normal\"\n";
+    if (set.direction_varies) text += "direction_map = \"direction\"\n";
+    if (set.normal_varies) text += "normal_map = \"normal\"\n";
     text += parameter_text("alpha_x", "alpha", 'r', set.alpha_x_range);
     text += parameter_text("alpha_y", "alpha", 'g', set.alpha_y_range);
     text += parameter_text("exponent", "alpha", 'b', set.exponent_range);
-    text += color_text("kd", "kd", set.kd_scale);
-    text += color_text("ks", "ks", set.ks_scale);
+    text += set.kd_varies ? color_text("kd", "kd", set.kd_scale) : color_text("kd", set.kd.front());
+    text += set.ks_varies ? color_text("ks", "ks", set.ks_scale) : color_text("ks", set.ks.front());
     return text;
 }
 
@@ -60,16 +74,9 @@ std::string_view name_of(Model model) {
 void run(const BakeMaterialOptions& options) {
     const GeneratedSet set = generated_set(options.set, options.seed, options.size);
     const std::filesystem::path& directory = options.output;
-    std::error_code failure;
-    std::filesystem::create_directories(directory, failure);
-    if (failure)
-        throw Error(ErrorCode::io, fmt::format("{}: no directory can be made there: {}",
-                                               directory.string(), failure.message()));
-    save_image(set.direction_map, directory / "direction.png");
-    save_image(set.normal_map, directory / "normal.png");
-    save_image(set.alpha_map, directory / "alpha.png");
-    save_image(set.kd_map, directory / "kd.png");
-    save_image(set.ks_map, directory / "ks.png");
+    make_directory(directory);
+    for (const auto& [name, image] : maps_of(set))
+        save_image(*image, directory / fmt::format("{}.png", name));
     save_truth(set, directory / "truth_direction.exr",
                [&](std::size_t i) { return glm::vec3(set.direction[i], 0.0F); });
     save_truth(set, directory / "truth_normal.exr", [&](std::size_t i) { return set.normal[i]; });
@@ -79,8 +86,8 @@ void run(const BakeMaterialOptions& options) {
     save_truth(set, directory / "truth_kd.exr", [&](std::size_t i) { return set.kd[i]; });
     save_truth(set, directory / "truth_ks.exr", [&](std::size_t i) { return set.ks[i]; });
     save_text(material_text(set, name_of(set.model), options.seed), directory / "material.toml");
-    fmt::print("{}: material.toml, five maps of {} x {}, five files of true numbers\n",
-               directory.string(), options.size, options.size);
+    fmt::print("{}: material.toml, {} maps of {} x {}, five files of true numbers\n",
+               directory.string(), maps_of(set).size(), options.size, options.size);
 }
 
 }  // namespace burnish::app

@@ -355,6 +355,40 @@ void add_bake_material(CLI::App& verb, BakeMaterialOptions& options) {
         ->type_name("DIR");
 }
 
+void add_bake_anisotropy(CLI::App& verb, BakeAnisotropyOptions& options) {
+    verb.add_option("--roughness", options.roughness, "glTF's roughnessFactor, default 1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("R");
+    verb.add_option("--strength", options.strength,
+                    "glTF's anisotropyStrength, default 0; with --texture 1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("S");
+    verb.add_option("--rotation", options.rotation,
+                    "glTF's anisotropyRotation: radians, against the clock, default 0")
+        ->check(CLI::Range(-1e3, 1e3))
+        ->type_name("RAD");
+    verb.add_option("--texture", options.texture, "glTF's anisotropyTexture")->type_name("FILE");
+    verb.add_option("--roughness-texture", options.roughness_texture,
+                    "glTF's metallicRoughnessTexture, of the same size")
+        ->type_name("FILE");
+    verb.add_option("--alpha-x", options.alpha_x, "Our width along the tangent, to glTF")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("A");
+    verb.add_option("--alpha-y", options.alpha_y, "Our width along the bitangent")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("A");
+    verb.add_option("--direction", options.direction,
+                    "Our tangent's angle from u: degrees, against the clock, default 0")
+        ->check(CLI::Range(-1e4, 1e4))
+        ->type_name("DEG");
+    verb.add_option("--material", options.material, "Material file, to textures of glTF")
+        ->type_name("FILE");
+    verb.add_option("-o,--output", options.output,
+                    "Directory for what textures or a material turn into")
+        ->type_name("DIR");
+    verb.add_flag("--json", options.json, "Print numbers as JSON");
+}
+
 /// The parser and what it fills. Nothing moves: the parser keeps references.
 struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
@@ -365,6 +399,7 @@ struct Parser {
     InfoOptions info;
     BakeBrushedOptions brushed;
     BakeMaterialOptions material;
+    BakeAnisotropyOptions anisotropy;
     BakeMeshOptions mesh;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
     CLI::App* trace_verb =
@@ -373,6 +408,8 @@ struct Parser {
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
     CLI::App* material_verb = bake_verb->add_subcommand(
         "material", "A generated material: maps, material file, true parameters");
+    CLI::App* anisotropy_verb =
+        bake_verb->add_subcommand("anisotropy", "KHR_materials_anisotropy to our widths, and back");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
     CLI::App* compile_verb = app.add_subcommand("compile", "Checks and prints program texts");
@@ -390,6 +427,7 @@ struct Parser {
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
         add_bake_material(*material_verb, material);
+        add_bake_anisotropy(*anisotropy_verb, anisotropy);
         add_bake_mesh(*mesh_verb, mesh);
     }
 
@@ -401,6 +439,7 @@ struct Parser {
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
         if (material_verb->parsed()) return material;
+        if (anisotropy_verb->parsed()) return anisotropy;
         return mesh;
     }
 };

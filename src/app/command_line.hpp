@@ -90,6 +90,17 @@ struct BakeMaterialOptions {
     std::filesystem::path output;  ///< a directory, made if need be
 };
 
+/// One of three sources: what glTF says, as numbers or textures; two widths; a material file.
+struct BakeAnisotropyOptions {
+    std::optional<double> roughness, strength, rotation;  ///< glTF's factors; radians
+    std::filesystem::path texture;                        ///< anisotropyTexture
+    std::filesystem::path roughness_texture;              ///< metallicRoughnessTexture
+    std::optional<double> alpha_x, alpha_y, direction;    ///< degrees
+    std::filesystem::path material;
+    std::filesystem::path output;  ///< a directory, made if need be; of textures and materials
+    bool json = false;             ///< of numbers
+};
+
 struct BakeMeshOptions {
     std::string shape;
     int columns = 64;  ///< of the grid; segments along the knot
@@ -102,8 +113,9 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                             InfoOptions, BakeBrushedOptions, BakeMaterialOptions, BakeMeshOptions>;
+using Command =
+    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions, InfoOptions,
+                 BakeBrushedOptions, BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

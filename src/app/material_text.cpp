@@ -17,9 +17,12 @@ std::string parameter_text(std::string_view key, std::string_view map, char chan
                        channel, range.low, range.high);
 }
 
-std::string color_text(std::string_view key, std::string_view map, const glm::vec3& scale) {
-    return fmt::format("{} = {{ map = \"{}\", color = [{}, {}, {}] }}\n", key, map, scale.r,
-                       scale.g, scale.b);
+std::string color_text(std::string_view key, std::string_view map, float scale) {
+    return fmt::format("{0} = {{ map = \"{1}\", color = [{2}, {2}, {2}] }}\n", key, map, scale);
+}
+
+std::string color_text(std::string_view key, const glm::vec3& color) {
+    return fmt::format("{} = [{}, {}, {}]\n", key, color.r, color.g, color.b);
 }
 
 }  // namespace burnish::app

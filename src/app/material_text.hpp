@@ -13,7 +13,9 @@ std::string texture_text(std::string_view name, std::string_view file, bool tile
 std::string parameter_text(std::string_view key, std::string_view map, char channel,
                            const CodedRange& range);
 
-/// A colour's line: the texture `map` times the colour.
-std::string color_text(std::string_view key, std::string_view map, const glm::vec3& scale);
+/// A colour's line: the texture `map` times a number.
+std::string color_text(std::string_view key, std::string_view map, float scale);
+/// The same of a colour that does not vary.
+std::string color_text(std::string_view key, const glm::vec3& color);
 
 }  // namespace burnish::app

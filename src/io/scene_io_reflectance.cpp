@@ -163,11 +163,11 @@ void read_direction(const Section& section, const TextureTable& textures, Materi
 
 /// The exponents of Ashikhmin and Shirley's model are another way to say its widths.
 void read_phong_exponents(const Section& section, Material& material) {
-    constexpr Range kAnisotropic{2.0, 2e6};
+    constexpr Range kPhongExponent{2.0, 2e6};
     const std::pair<std::string_view, std::string_view> keys[] = {{"nu", "alpha_x"},
                                                                   {"nv", "alpha_y"}};
     for (const auto& [key, width] : keys) {
-        const auto n = section.number(key, kAnisotropic);
+        const auto n = section.number(key, kPhongExponent);
         if (!n) continue;
         if (material.model != Model::ashikhmin_shirley)
             section.fail(key, fmt::format("'{}' in {} without 'model' = \"ashikhmin_shirley\"", key,

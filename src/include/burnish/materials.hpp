@@ -47,7 +47,10 @@ struct GeneratedSet {
     Image8 kd_map;         ///< kd / kd_scale
     Image8 ks_map;         ///< ks / ks_scale
     CodedRange alpha_x_range, alpha_y_range, exponent_range;
-    glm::vec3 kd_scale{1.0F}, ks_scale{1.0F};  ///< the largest value of each channel
+    float kd_scale = 1.0F, ks_scale = 1.0F;  ///< the largest value of any channel
+
+    /// What is the same everywhere needs no map: a direction along u, an upright normal, a colour.
+    bool direction_varies = false, normal_varies = false, kd_varies = false, ks_varies = false;
 };
 
 /// brushed, lathe, cross_hatch, sunburst, orbital, corrosion, fingerprint, weave.
@@ -61,7 +64,7 @@ inline constexpr int kMaxGeneratedSize = 2048;
 /// Throws Error{bad_option} for an unknown name or another size.
 GeneratedSet generated_set(std::string_view name, std::uint32_t seed = 1, int size = 512);
 
-/// The maps of such a set as a material of that name.
+/// The maps of such a set, those that vary, as a material of that name.
 Material generated_material(const GeneratedSet& set);
 Material generated_material(std::string_view name, std::uint32_t seed = 1, int size = 512);
 

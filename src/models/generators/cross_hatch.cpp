@@ -21,7 +21,7 @@ Surface cross_hatch(std::uint32_t seed, int size) {
         const glm::dvec2 direction(dmath::cos(angle), sign * dmath::sin(angle));
         const double length = random.between(0.1, 0.4) * size;
         const double half_width = std::max(random.between(1.2, 2.2) * scale, 0.75);
-        const double depth = half_width * random.between(0.06, 0.2);
+        const double depth = half_width * random.between(0.12, 0.4);
         const double step = 0.5 * half_width;
         for (double done = 0.0; done < length; done += step) {
             strokes->dent({i, half_width, depth}, at, direction);
@@ -32,7 +32,7 @@ Surface cross_hatch(std::uint32_t seed, int size) {
         const std::uint32_t state = mix(mix(seed, 2), strokes->number(x, y));
         SurfaceTexel texel;
         texel.direction = strokes->direction(x, y);
-        texel.normal = normal_at(strokes->height(), x, y);
+        texel.normal = strokes->normal(x, y);
         texel.alpha_x = 0.15;
         texel.alpha_y = 0.35 + 0.15 * unit_interval(mix(state, 1));
         texel.exponent = 8.0 * (1.0 + 2.0 * unit_interval(mix(state, 2)));

@@ -68,20 +68,23 @@ std::uint8_t code_in(const CodedRange& range, float x) {
                          (static_cast<double>(range.high) - static_cast<double>(range.low)));
 }
 
-/// The largest value of each channel; 1 where all are 0.
-glm::vec3 scale_of(const std::vector<glm::vec3>& colors) {
-    glm::vec3 most(0.0F);
-    for (const glm::vec3& c : colors) most = glm::max(most, c);
-    for (int k = 0; k < 3; ++k) {
-        if (most[k] == 0.0F) most[k] = 1.0F;
-    }
-    return most;
+/// The largest value of any channel; 1 where all are 0.
+float scale_of(const std::vector<glm::vec3>& colors) {
+    float most = 0.0F;
+    for (const glm::vec3& c : colors) most = std::max({most, c.r, c.g, c.b});
+    return most > 0.0F ? most : 1.0F;
 }
 
-void store_color(std::uint8_t* texel, const glm::vec3& color, const glm::vec3& scale) {
+void store_color(std::uint8_t* texel, const glm::vec3& color, float scale) {
     for (int k = 0; k < 3; ++k)
-        texel[k] = unsigned_code(static_cast<double>(color[k]) / static_cast<double>(scale[k]));
+        texel[k] = unsigned_code(static_cast<double>(color[k]) / static_cast<double>(scale));
     texel[3] = 255;
+}
+
+template <class Value>
+bool varies(const std::vector<Value>& values) {
+    return std::any_of(values.begin(), values.end(),
+                       [&](const Value& v) { return v != values.front(); });
 }
 
 void encode(GeneratedSet& set) {
@@ -93,6 +96,10 @@ void encode(GeneratedSet& set) {
     set.exponent_range = range_of(set.exponent);
     set.kd_scale = scale_of(set.kd);
     set.ks_scale = scale_of(set.ks);
+    set.direction_varies = varies(set.direction);
+    set.normal_varies = varies(set.normal);
+    set.kd_varies = varies(set.kd);
+    set.ks_varies = varies(set.ks);
     for (std::size_t i = 0; i < set.direction.size(); ++i) {
         std::uint8_t* direction = set.direction_map.rgba.data() + 4 * i;
         std::uint8_t* normal = set.normal_map.rgba.data() + 4 * i;
@@ -155,16 +162,16 @@ Material generated_material(const GeneratedSet& set) {
     material.name = set.name;
     material.model = set.model;
     material.encoding = VectorEncoding::d;
-    material.direction_map = texture(set.direction_map);
-    material.normal_map = texture(set.normal_map);
+    if (set.direction_varies) material.direction_map = texture(set.direction_map);
+    if (set.normal_varies) material.normal_map = texture(set.normal_map);
     const TexturePtr alpha = texture(set.alpha_map);
     material.alpha_x_map = parameter_map(alpha, 0, set.alpha_x_range, material.alpha_x);
     material.alpha_y_map = parameter_map(alpha, 1, set.alpha_y_range, material.alpha_y);
     material.exponent_map = parameter_map(alpha, 2, set.exponent_range, material.exponent);
-    material.kd = set.kd_scale;
-    material.kd_map = texture(set.kd_map);
-    material.ks = set.ks_scale;
-    material.specular_map = texture(set.ks_map);
+    material.kd = set.kd_varies ? glm::vec3(set.kd_scale) : set.kd.front();
+    if (set.kd_varies) material.kd_map = texture(set.kd_map);
+    material.ks = set.ks_varies ? glm::vec3(set.ks_scale) : set.ks.front();
+    if (set.ks_varies) material.specular_map = texture(set.ks_map);
     return material;
 }
 

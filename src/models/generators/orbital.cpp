@@ -20,7 +20,7 @@ Surface orbital(std::uint32_t seed, int size) {
         const double start = random.between(0.0, 2.0 * dmath::kPi);
         const double sweep = random.between(1.0, 2.0 * dmath::kPi);
         const double half_width = std::max(random.between(1.1, 1.9) * scale, 0.75);
-        const double depth = half_width * random.between(0.05, 0.18);
+        const double depth = half_width * random.between(0.10, 0.36);
         const double step = 0.5 * half_width / radius;
         for (double done = 0.0; done < sweep; done += step) {
             const double c = dmath::cos(start + done), s = dmath::sin(start + done);
@@ -31,7 +31,7 @@ Surface orbital(std::uint32_t seed, int size) {
         const std::uint32_t state = mix(mix(seed, 2), strokes->number(x, y));
         SurfaceTexel texel;
         texel.direction = strokes->direction(x, y);
-        texel.normal = normal_at(strokes->height(), x, y);
+        texel.normal = strokes->normal(x, y);
         texel.alpha_x = 0.16;
         texel.alpha_y = 0.30 + 0.20 * unit_interval(mix(state, 1));
         texel.exponent = 6.0 * (1.0 + 3.0 * unit_interval(mix(state, 2)));

@@ -21,9 +21,16 @@ void Strokes::dent(const Stroke& stroke, const glm::dvec2& at, const glm::dvec2&
             const int column = wrapped(x), row = wrapped(y);
             if (floor >= m_height.at(column, row)) continue;
             m_height.at(column, row) = floor;
-            m_marks[index(column, row)] = {direction, stroke.number};
+            const double d = (-direction.y * dx - direction.x * dy) / w;
+            const double slope = 4.0 * stroke.depth / w * d * (1.0 - d * d);
+            m_marks[index(column, row)] = {direction, slope, stroke.number};
         }
     }
+}
+
+glm::dvec3 Strokes::normal(int x, int y) const {
+    const Mark& mark = m_marks[index(x, y)];
+    return unit(glm::dvec3(mark.direction.y * mark.slope, -mark.direction.x * mark.slope, 1.0));
 }
 
 }  // namespace burnish::generators

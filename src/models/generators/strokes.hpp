@@ -9,7 +9,7 @@
 namespace burnish::generators {
 
 /// Grooves of many strokes, on a texture that repeats in both directions. Where strokes cross, the
-/// deepest shows: a texel has its direction and its number.
+/// deepest shows: a texel has its direction, its wall and its number.
 class Strokes {
   public:
     explicit Strokes(int size);
@@ -24,7 +24,8 @@ class Strokes {
     /// rows.
     void dent(const Stroke& stroke, const glm::dvec2& at, const glm::dvec2& direction);
 
-    [[nodiscard]] const Field& height() const { return m_height; }
+    /// Of the groove's wall, which tilts across the stroke alone.
+    [[nodiscard]] glm::dvec3 normal(int x, int y) const;
     /// (1, 0) where no stroke went.
     [[nodiscard]] glm::dvec2 direction(int x, int y) const {
         return m_marks[index(x, y)].direction;
@@ -35,6 +36,7 @@ class Strokes {
   private:
     struct Mark {
         glm::dvec2 direction{1.0, 0.0};
+        double slope = 0.0;  ///< of the height towards the left of the direction
         std::uint32_t number = 0;
     };
     [[nodiscard]] std::size_t index(int x, int y) const {
