@@ -146,9 +146,9 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps
                 material.name));
     }
     const Light light = light_of(scene);
-    if (material.model != Model::abp_modified)
-        return maps.models.get(object.material, scene.machine, light.color * light.intensity,
-                               scene.ambient)
+    if (material.model != Model::abp_modified || scene.machine.numbers == NumberModel::wide)
+        return maps.models
+            .get(object.material, scene.machine, light.color * light.intensity, scene.ambient)
             .program;
     return compile_abp_modified(material, scene.machine, light.color * light.intensity,
                                 scene.ambient, maps);

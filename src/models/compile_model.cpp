@@ -50,6 +50,8 @@ std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const E
                 v.high = first ? at[i] : glm::max(v.high, at[i]);
                 v.shortest = first ? length : std::min(v.shortest, length);
                 v.longest = first ? length : std::max(v.longest, length);
+                if (length > 0.0)
+                    v.spread = glm::max(v.spread, glm::abs(at[i]) / (length * length));
             }
         }
     }
@@ -105,6 +107,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     }
     Cover cover(roots, ranges, machine.numbers, machine.stage_fetches);
     task.terms = &terms;
+    task.varies = source.varies();
     task.light = light;
     task.ambient = ambient;
     task.numbers = machine.numbers;
@@ -120,8 +123,13 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     compiled.layer.insert(compiled.layer.end(), constant_layer.begin(), constant_layer.end());
     for (std::size_t i = 0; i < plan.tables.size(); ++i) {
         const PlanTable& t = plan.tables[i];
-        compiled.tables.push_back({"", scheduled.tables[i], t.axes[0].size,
-                                   t.axes.size() == 2 ? t.axes[1].size : 1, t.interpolation});
+        TableReport& report = compiled.tables.emplace_back();
+        report.function = t.function;
+        for (const PlanAxis& axis : t.axes) report.arguments.push_back(axis.name);
+        report.unit = scheduled.tables[i];
+        report.width = t.axes[0].size;
+        report.height = t.axes.size() == 2 ? t.axes[1].size : 1;
+        report.interpolation = t.interpolation;
     }
     return compiled;
 }

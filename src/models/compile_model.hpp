@@ -12,7 +12,8 @@ namespace burnish {
 
 /// A table of a compiled model, for reports.
 struct TableReport {
-    std::string function;  ///< of what, in the model's language
+    std::string function;                ///< in the language of models
+    std::vector<std::string> arguments;  ///< along its axes, likewise
     int unit = -1;
     int width = 1, height = 1;
     double interpolation = 0.0;  ///< largest error between texels, in its own numbers

@@ -20,7 +20,7 @@ constexpr std::size_t kMostArguments = 2;
 constexpr double kOperation = 1.0, kTable1d = 2.0, kTable2d = 3.5;
 
 /// And for interpolation that is off by the table's whole height.
-constexpr double kRoughness = 200.0;
+constexpr double kRoughness = 1000.0;
 
 bool is_leaf(const Expr& e) {
     return e.op == ExprOp::constant || e.op == ExprOp::geometry || e.op == ExprOp::quantity ||
@@ -124,7 +124,9 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
     if (e.op == ExprOp::constant) {
         found.push_back({});
     } else {
-        found.push_back({&e});
+        // Multiples are read from what they are multiples of.
+        const bool is_multiple = e.op == ExprOp::multiply && e.args[0]->op == ExprOp::constant;
+        if (!is_multiple) found.push_back({&e});
         if (!is_leaf(e)) {
             std::vector<NodeSet> merged{{}};
             for (const ExprPtr& arg : e.args) {

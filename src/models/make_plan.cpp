@@ -6,6 +6,7 @@
 #include <burnish/error.hpp>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "core/dmath.hpp"
@@ -52,21 +53,20 @@ bool is_half_vector(const Expr& e) {
     return e.op == ExprOp::geometry && e.name == "h";
 }
 
+constexpr double kAll = std::numeric_limits<double>::infinity();
+
 class Planner {
   public:
     Planner(const PlanTask& task, Cover& cover, Ranges& ranges)
         : m_task(task), m_cover(cover), m_ranges(ranges) {}
 
     Plan make() {
-        // Tables first: how far their arguments need to reach.
         for (const Expr* e : m_cover.tables()) {
-            const std::vector<const Expr*>& args = m_cover.table(*e)->args;
-            const TableDomain domain = table_domain(*e, args, m_ranges, m_task.numbers);
-            for (std::size_t i = 0; i < args.size(); ++i) limit(*args[i], domain.arguments[i].high);
-            m_domains.emplace(e, domain);
+            m_domains.emplace(e,
+                              table_domain(*e, m_cover.table(*e)->args, m_ranges, m_task.numbers));
         }
         for (const ModelTerm& term : *m_task.terms) {
-            if (term.scalar) limit_inverted(*term.scalar);
+            if (term.scalar) demand(*term.scalar, white(term));
         }
         scale_half_vector();
         finish();
@@ -76,26 +76,60 @@ class Planner {
   private:
     // --- how far values need to reach ---------------------------------------------------------
 
-    void limit(const Expr& e, double reach) {
-        const auto [at, is_new] = m_reach.emplace(&e, reach);
-        if (!is_new) at->second = std::max(at->second, reach);
-        limit_squares(e, at->second);
+    /// Where a term is white, whatever its hue.
+    double white(const ModelTerm& term) const {
+        const glm::dvec3 k = glm::abs(m_task.light * term.factor);
+        const double least = std::min({k.x, k.y, k.z});
+        return term.color || least <= 0.0 ? kAll : 1.0 / least;
     }
 
-    /// Where a sum of squares may stop, its terms may.
-    void limit_squares(const Expr& e, double reach) {
-        if (m_cover.table(e) != nullptr) return;
-        if (e.op == ExprOp::add) {
-            for (const ExprPtr& arg : e.args) {
-                if (m_ranges.of(*arg).low >= 0.0) limit_squares(*arg, reach);
-            }
-        } else if (e.op == ExprOp::multiply && e.args[0] == e.args[1]) {
-            const auto [at, is_new] = m_reach.emplace(e.args[0].get(), std::sqrt(reach));
-            if (!is_new) at->second = std::max(at->second, std::sqrt(reach));
-        } else if (e.op == ExprOp::maximum || e.op == ExprOp::multiply) {
-            if (e.op == ExprOp::multiply && e.args[0]->op != ExprOp::constant) return;
-            const double factor = e.op == ExprOp::multiply ? e.args[0]->value.x : 1.0;
-            if (factor > 0.0) limit_squares(*e.args[1], reach / factor);
+    /// `e` is wanted up to `reach`; beyond, it may stop.
+    void demand(const Expr& e, double reach) {
+        if (e.kind != ValueKind::scalar || e.op == ExprOp::constant) return;
+        const auto [at, is_new] = m_reach.emplace(&e, reach);
+        if (!is_new && at->second >= reach) return;
+        at->second = reach;
+        if (m_cover.table(e) != nullptr) {
+            const std::vector<const Expr*>& args = m_cover.table(e)->args;
+            for (std::size_t i = 0; i < args.size(); ++i)
+                demand(*args[i], m_domains.at(&e).arguments[i].high);
+            return;
+        }
+        const auto low = [&](std::size_t i) { return m_ranges.of(*e.args[i]).low; };
+        switch (e.op) {
+            case ExprOp::add:
+                // Of summands that are not negative each may stop where the sum does.
+                for (const ExprPtr& arg : e.args)
+                    demand(*arg, low(0) >= 0.0 && low(1) >= 0.0 ? reach : kAll);
+                return;
+            case ExprOp::multiply:
+                if (e.args[0] == e.args[1]) {
+                    demand(*e.args[0], std::sqrt(reach));
+                } else if (e.args[0]->op == ExprOp::constant) {
+                    demand(*e.args[1], reach / std::abs(e.args[0]->value.x));
+                } else {
+                    for (const ExprPtr& arg : e.args) demand(*arg, kAll);
+                }
+                return;
+            case ExprOp::maximum:
+                for (const ExprPtr& arg : e.args) {
+                    if (is_one_minus(*arg)) {
+                        demand(*arg->args[1]->args[1], 1.0);
+                    } else {
+                        demand(*arg, reach);
+                    }
+                }
+                return;
+            case ExprOp::minimum:
+                for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+                    const Expr& bound = *e.args[1 - i];
+                    if (bound.op == ExprOp::constant) demand(*e.args[i], bound.value.x);
+                }
+                return;
+            case ExprOp::power:
+                return demand(*e.args[0], kAll);
+            default:
+                return;
         }
     }
 
@@ -106,25 +140,24 @@ class Planner {
         return at == m_reach.end() ? whole : std::min(at->second, whole);
     }
 
-    /// Lobes about the normal end where all tangent vectors of theirs say that they have. Beyond,
-    /// the half vector may be anything that still is outside, so x and y get more digits.
+    /// Lobes about the normal end where their tangent vectors say so: within an ellipse, whose box
+    /// bounds x and y of the half vector. What is clamped to the box is not inside the ellipse, so
+    /// x and y can have the digits that the box leaves free.
     void scale_half_vector() {
         if (!m_task.scaled_half_vector) return;
-        double widest = 0.0;
+        glm::dvec3 box(m_task.most_tilt);
         bool any = false;
         for (const auto& [e, reach] : m_reach) {
             if (e->op != ExprOp::dot || !is_half_vector(*e->args[0])) continue;
             const QuantityValues& q = m_task.quantities.at(e->args[1].get());
-            const double whole = m_ranges.of(*e).high;
-            if (q.shortest <= 0.0 || reach >= whole) continue;
-            widest = std::max(widest, reach / q.shortest);
+            if (!q.is_tangent) continue;
+            box += reach * q.spread;
             any = true;
         }
-        const double bound = 1.05 * (m_task.most_tilt + widest);
-        if (!any || bound >= 1.0) return;
-        m_plan.half_scale = {1.0 / bound, 1.0 / bound, 1.0};
+        box *= m_task.varies ? 1.5 : 1.05;
+        if (!any) return;
+        m_plan.half_scale = {std::max(1.0, 1.0 / box.x), std::max(1.0, 1.0 / box.y), 1.0};
     }
-
     // --- values ---------------------------------------------------------------------------------
 
     int add(PlanValue value) {
@@ -621,21 +654,6 @@ class Planner {
                e.args[1]->op == ExprOp::multiply && is_number(*e.args[1]->args[0], -1.0);
     }
 
-    /// max(0, 1 - x) that the combiners compute ends at x = 1.
-    void limit_inverted(const Expr& e) {
-        if (const TableCut* cut = m_cover.table(e)) {
-            for (const Expr* arg : cut->args) limit_inverted(*arg);
-            return;
-        }
-        if (e.op == ExprOp::dot) return;
-        if (e.op == ExprOp::maximum) {
-            for (const ExprPtr& arg : e.args) {
-                if (is_one_minus(*arg)) limit(*arg->args[1]->args[1], 1.0);
-            }
-        }
-        for (const ExprPtr& arg : e.args) limit_inverted(*arg);
-    }
-
     const PlanTask& m_task;
     Cover& m_cover;
     Ranges& m_ranges;
@@ -660,6 +678,8 @@ double PlanAxis::at(double position) const {
     double x = code;
     if (input.mapping == Mapping::signed_negate) x = -code;
     if (input.mapping == Mapping::unsigned_invert) x = 1.0 - code;
+    if (input.mapping == Mapping::expand) x = 2.0 * code - 1.0;
+    if (input.mapping == Mapping::expand_negate) x = 1.0 - 2.0 * code;
     x *= unit;
     return logarithmic ? dmath::exp2(low + x) : x;
 }

@@ -13,6 +13,8 @@ namespace burnish {
 struct QuantityValues {
     glm::dvec3 low{0.0}, high{0.0};        ///< component by component
     double shortest = 0.0, longest = 0.0;  ///< of a vector: length
+    bool is_tangent = true;  ///< a vector that is perpendicular to the normal at every texel
+    glm::dvec3 spread{0.0};  ///< of a vector: the largest |component| / length^2
 };
 
 /// What a plan is made for.
@@ -20,6 +22,7 @@ struct PlanTask {
     const std::vector<ModelTerm>* terms = nullptr;
     std::map<const Expr*, QuantityValues, ByAge> quantities;
     double most_tilt = 0.0;  ///< largest |x| or |y| of the normals
+    bool varies = false;     ///< quantities are filtered: vectors may be shorter than at any texel
     glm::dvec3 light{1.0}, ambient{0.0};
     NumberModel numbers = NumberModel::wide;
     bool scaled_half_vector = true;  ///< the interpolators may scale it: half vectors of the pixel

@@ -63,7 +63,7 @@ S = ks / (4 * pi * alpha_x * alpha_y)
 q = dot(h, X)^2 + dot(h, Y)^2
 H = max(3/8, dot(n, h))
 nl = max(0, dot(n, l))
-S * min(1, exp(-q / H^2) / H^4) * (nl / max(1/32, h_dot_l^2)) + kd * nl)";
+S * min(3/2, exp(-q / H^2) / H^4) * (nl / max(1/32, h_dot_l^2)) + kd * nl)";
         case Model::ashikhmin_shirley:
             return R"(U = t * sqrt(2) / alpha_x
 V = b * sqrt(2) / alpha_y
@@ -86,13 +86,15 @@ S = 1 / (2 * pi * alpha_x * alpha_y)
 A = ks * S
 C = (1 - ks) * S
 q = dot(h, X)^2 + dot(h, Y)^2 + dot(n, h)^2
-D = 1 / max(1/2, q)^2
+D = 1 / max(3/4, q)^2
 F = (1 - h_dot_l)^5
 nl = max(0, dot(n, l))
 nv = max(1/32, dot(n, v))
 gv = sqrt(dot(v, P)^2 + dot(v, Q)^2 + nv^2)
-gl = sqrt(dot(l, P)^2 + dot(l, Q)^2 + nl^2)
-(A + C * F) * (D * (nl / max(1/64, nl * gv + nv * gl))) + kd * nl)";
+gl = max(1/32, sqrt(dot(l, P)^2 + dot(l, Q)^2 + nl^2))
+r = nl / gl
+G = r / max(1/64, r + nv / gv) * (1 / gv)
+(A + C * F) * (D * G) + kd * nl)";
         case Model::text:
             break;
     }

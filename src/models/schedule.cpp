@@ -103,14 +103,16 @@ class Scheduler {
     }
 
     void count_uses() {
-        for (const PlanValue& v : m_plan.values) {
-            for_each_operand(v, [&](int i) { ++m_uses[at(i)]; });
-        }
-        if (m_plan.color.value >= 0) ++m_uses[at(m_plan.color.value)];
-        for (int i = static_cast<int>(m_plan.values.size()) - 1; i >= 0; --i) {
+        const int last = static_cast<int>(m_plan.values.size()) - 1;
+        if (m_plan.color.value >= 0) m_uses[at(m_plan.color.value)] = 1;
+        // Operands come before what they make, so whoever is needed is known to be by now.
+        for (int i = last; i >= 0; --i) {
+            if (m_uses[at(i)] == 0) continue;
             const int below = m_depth[at(i)] + (value(i).op == PlanOp::table ? 1 : 2);
-            for_each_operand(value(i),
-                             [&](int k) { m_depth[at(k)] = std::max(m_depth[at(k)], below); });
+            for_each_operand(value(i), [&](int k) {
+                ++m_uses[at(k)];
+                m_depth[at(k)] = std::max(m_depth[at(k)], below);
+            });
         }
     }
 
@@ -397,7 +399,10 @@ class Scheduler {
                     shader.units[at(unit)].operation = TextureOperation::none;
             }
             shader.units[at(m_out.pass_unit)].operation = TextureOperation::pass_through;
-            m.uv[at(m_out.pass_unit)] = CoordinateInput::view_coded;
+            const std::string& name = value(m_third_vector).name;
+            m.uv[at(m_out.pass_unit)] = name == "h"   ? CoordinateInput::half_coded
+                                        : name == "l" ? CoordinateInput::light_coded
+                                                      : CoordinateInput::view_coded;
             m.texture_shader = shader;
         }
     }
