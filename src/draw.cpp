@@ -146,7 +146,7 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps
                 material.name));
     }
     const Light light = light_of(scene);
-    if (material.model != Model::abp_modified || scene.machine.numbers == NumberModel::wide)
+    if (material.model != Model::abp_modified || !material.tangent_map)
         return maps.models
             .get(object.material, scene.machine, light.color * light.intensity, scene.ambient)
             .program;

@@ -200,14 +200,9 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
 
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
-    const std::vector<std::string> texts{
-        "[machine]
-filter_order = \"after\"
-", "[machine]
-half_vector = \"cube:64\"
-",
-        texture + "mipmaps = \"toksvig\"
-"};
+    const std::vector<std::string> texts{"[machine]\nfilter_order = \"after\"\n",
+                                         "[machine]\nhalf_vector = \"cube:64\"\n",
+                                         texture + "mipmaps = \"toksvig\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }

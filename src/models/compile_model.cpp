@@ -111,6 +111,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     task.light = light;
     task.ambient = ambient;
     task.numbers = machine.numbers;
+    task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
     const Plan plan = make_plan(task, cover, ranges);
     Schedule scheduled = schedule(plan, machine);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dmath.hpp"
 #include "models/table_domain.hpp"
 
 namespace burnish {
@@ -14,6 +15,7 @@ namespace burnish {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLog2E = 1.4426950408889634;
 constexpr std::size_t kMostArguments = 2;
 
 /// In halves of a stage's portion: what a model is charged for.
@@ -84,14 +86,14 @@ Interval Ranges::computed(const Expr& e) {
         case ExprOp::power: {
             const Interval a = arg(0), b = arg(1);
             const double base = std::max(a.high, 0.0);
-            if (b.low < 0.0) return {0.0, a.low > 0.0 ? std::pow(a.low, b.low) : kInfinity};
-            return {0.0, base <= 1.0 ? std::max(std::pow(base, b.low), b.low == 0.0 ? 1.0 : 0.0)
-                                     : std::pow(base, b.high)};
+            if (b.low < 0.0) return {0.0, a.low > 0.0 ? dmath::pow(a.low, b.low) : kInfinity};
+            return {0.0, base <= 1.0 ? std::max(dmath::pow(base, b.low), b.low == 0.0 ? 1.0 : 0.0)
+                                     : dmath::pow(base, b.high)};
         }
         case ExprOp::square_root:
             return {std::sqrt(std::max(arg(0).low, 0.0)), std::sqrt(std::max(arg(0).high, 0.0))};
         case ExprOp::exponential:
-            return {std::exp(arg(0).low), std::exp(arg(0).high)};
+            return {dmath::exp2(arg(0).low * kLog2E), dmath::exp2(arg(0).high * kLog2E)};
         case ExprOp::minimum:
             return {std::min(arg(0).low, arg(1).low), std::min(arg(0).high, arg(1).high)};
         case ExprOp::maximum:

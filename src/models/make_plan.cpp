@@ -160,7 +160,41 @@ class Planner {
     }
     // --- values ---------------------------------------------------------------------------------
 
+    /// Whether an operand may be negative.
+    bool is_signed(const PlanInput& i) const {
+        switch (i.mapping) {
+            case Mapping::unsigned_identity:
+            case Mapping::unsigned_invert:
+                return false;
+            case Mapping::signed_identity:
+                return i.value >= 0 && m_plan.values[static_cast<std::size_t>(i.value)].is_signed;
+            default:
+                return true;
+        }
+    }
+    bool is_signed(const PlanValue& v) const {
+        switch (v.op) {
+            case PlanOp::input:
+            case PlanOp::quantity:
+                return v.kind == ValueKind::vector;
+            case PlanOp::constant:
+                return false;
+            case PlanOp::table:
+                return m_plan.tables[static_cast<std::size_t>(v.index)].coded;
+            case PlanOp::arithmetic:
+                break;
+        }
+        if (v.is_dot) return true;
+        for (int k = 0; k < v.products; ++k) {
+            const PlanInput& a = v.factors[static_cast<std::size_t>(2 * k)];
+            const PlanInput& b = v.factors[static_cast<std::size_t>(2 * k + 1)];
+            if (a != b && (is_signed(a) || is_signed(b))) return true;
+        }
+        return false;
+    }
+
     int add(PlanValue value) {
+        value.is_signed = is_signed(value);
         for (std::size_t i = 0; i < m_plan.values.size(); ++i) {
             if (same(m_plan.values[i], value)) return static_cast<int>(i);
         }
@@ -349,19 +383,47 @@ class Planner {
     Operand dot(const Expr& e) {
         const Expr& pixel = *e.args[0];
         const Expr& texel = *e.args[1];
-        const QuantityValues& values = m_task.quantities.at(&texel);
-        const glm::dvec3 scale = is_half_vector(pixel) ? m_plan.half_scale : glm::dvec3(1.0);
-        const double wanted = std::max(reach(e), 1e-6);
-        // (S h) . (Q / S): what the quantity's components reach.
-        const glm::dvec3 most = glm::max(glm::abs(values.low), glm::abs(values.high)) / scale;
-        double unit = wanted;
+        const double wanted = wanted_of(e);
+        const auto shared = m_shared_units.find(&e);
+        const double unit = shared == m_shared_units.end() ? unit_of_dot(e) : shared->second;
+        PlanQuantity q{.name = texel.name,
+                       .expr = &texel,
+                       .kind = ValueKind::vector,
+                       .unit = unit * scale_of(pixel)};
+        return arithmetic(ValueKind::scalar,
+                          {input(pixel.name, ValueKind::vector), quantity(q), unit, true}, wanted);
+    }
+    double wanted_of(const Expr& e) { return std::max(reach(e), 1e-6); }
+    glm::dvec3 scale_of(const Expr& pixel) const {
+        return is_half_vector(pixel) ? m_plan.half_scale : glm::dvec3(1.0);
+    }
+    /// The least power of two times what is wanted that the components of the quantity allow.
+    double unit_of_dot(const Expr& e) {
+        const QuantityValues& values = m_task.quantities.at(e.args[1].get());
+        // (S h) . (Q / S)
+        const glm::dvec3 most =
+            glm::max(glm::abs(values.low), glm::abs(values.high)) / scale_of(*e.args[0]);
+        double unit = wanted_of(e);
         while (unit < largest(most) * (1.0 - 1e-9)) unit *= 2.0;
-        PlanQuantity q{
-            .name = texel.name, .expr = &texel, .kind = ValueKind::vector, .unit = unit * scale};
-        Operand x =
-            arithmetic(ValueKind::scalar,
-                       {input(pixel.name, ValueKind::vector), quantity(q), unit, true}, wanted);
-        return x.unit > wanted * (1.0 + 1e-9) ? in_units(x, wanted) : x;
+        return unit;
+    }
+
+    /// Where stages are few, dots that will be squared and summed share a stage and so a scale.
+    void share_units(const Expr& sum_of_squares) {
+        if (m_task.numbers == NumberModel::wide) return;
+        std::vector<const Expr*> dots;
+        for (const ExprPtr& arg : sum_of_squares.args) {
+            if (arg->op != ExprOp::multiply || arg->args[0] != arg->args[1]) return;
+            if (arg->args[0]->op != ExprOp::dot || m_lowered.contains(arg->args[0].get())) return;
+            dots.push_back(arg->args[0].get());
+        }
+        double unit = 0.0, wanted = 0.0;
+        for (const Expr* d : dots) unit = std::max(unit, unit_of_dot(*d));
+        for (const Expr* d : dots) wanted = std::max(wanted, wanted_of(*d));
+        for (const Expr* d : dots) {
+            m_shared_units[d] = unit;
+            m_reach[d] = std::max(m_reach[d], wanted);
+        }
     }
 
     /// max(0, x): an operand that drops what is negative.
@@ -426,6 +488,7 @@ class Planner {
         const Expr& a = *e.args[0];
         const Expr& b = *e.args[1];
         if (std::optional<Operand> inverse = inverted(e, false)) return *inverse;
+        share_units(e);
         const double wanted = std::max(reach(e), 1e-9);
         Product p = a.op == ExprOp::constant ? Product{} : summand(a);
         Product q = b.op == ExprOp::constant ? Product{} : summand(b);
@@ -622,12 +685,114 @@ class Planner {
         return {x.input, constant(p.unit / unit), unit};
     }
 
+    /// The final combiner takes the last product, and one more inside it; the rest is summed
+    /// before.
     void finish() {
-        m_plan.ambient = m_task.ambient;
+        glm::dvec3 base = m_task.ambient;
         std::vector<Product> products;
         for (const ModelTerm& term : *m_task.terms) {
-            if (m_task.light * term.factor != glm::dvec3(0.0)) products.push_back(lit(term));
+            const glm::dvec3 light = m_task.light * term.factor;
+            if (light == glm::dvec3(0.0)) continue;
+            if (comes_with_vertices(term)) {
+                m_plan.lit_tint += light;
+            } else {
+                products.push_back(lit(term));
+            }
         }
+        const auto last = std::find_if(products.begin(), products.end(),
+                                       [&](const Product& p) { return fits_final(p); });
+        if (last != products.end()) {
+            final_product(*last);
+            products.erase(last);
+        }
+        if (m_plan.lit_tint != glm::dvec3(0.0)) {
+            m_plan.lit_base = base;
+            const PlanInput lit_input = input("lit", ValueKind::color);
+            if (products.empty()) {
+                m_plan.final.d = lit_input;
+                return;
+            }
+            products.push_back({lit_input, one(), 1.0});
+        } else if (base != glm::dvec3(0.0)) {
+            const PlanInput constant_base = constant(ValueKind::color, base);
+            if (products.empty()) {
+                m_plan.final.d = constant_base;
+                return;
+            }
+            products.push_back({constant_base, one(), 1.0});
+        }
+        if (!products.empty()) m_plan.final.d = summed(products);
+    }
+
+    bool comes_with_vertices(const ModelTerm& term) const {
+        const glm::dvec3 k = m_task.light * term.factor;
+        return m_task.vertex_light && !term.color && term.scalar &&
+               term.scalar->op == ExprOp::geometry && term.scalar->name == "n_dot_l" &&
+               std::min({k.x, k.y, k.z}) >= 0.0;
+    }
+
+    /// Inputs of the final combiner are not negative, and products have no scale.
+    bool fits_final(const Product& p) const {
+        return p.unit == 1.0 && !is_signed(p.a) && !is_signed(p.b);
+    }
+
+    /// Three factors multiply in the final combiner; of more, those that are known first have been
+    /// multiplied before.
+    void final_product(const Product& p) {
+        std::vector<PlanInput> factors = factors_of(p.a);
+        if (p.b != one()) factors.push_back(p.b);
+        while (factors.size() > 3) {
+            std::stable_sort(
+                factors.begin(), factors.end(),
+                [&](const PlanInput& x, const PlanInput& y) { return depth_of(x) < depth_of(y); });
+            const ValueKind kind = std::max(kind_of(factors[0]), kind_of(factors[1]));
+            factors[1] = arithmetic(kind, {factors[0], factors[1], 1.0}, 1.0).input;
+            factors.erase(factors.begin());
+        }
+        PlanFinal& f = m_plan.final;
+        f.a = factors[0];
+        f.b = factors.size() == 2 ? factors[1] : one();
+        if (factors.size() < 3) return;
+        f.has_product = true;
+        f.e = factors[1];
+        f.f = factors[2];
+    }
+
+    /// What is multiplied to an operand without scales, where the parts are as good as the whole.
+    std::vector<PlanInput> factors_of(const PlanInput& i) const {
+        if (i.value < 0 || i.mapping == Mapping::unsigned_invert) return {i};
+        const PlanValue& v = m_plan.values[static_cast<std::size_t>(i.value)];
+        const bool splits = v.op == PlanOp::arithmetic && v.products == 1 && !v.is_dot &&
+                            v.doublings == 0 && !is_signed(v.factors[0]) &&
+                            !is_signed(v.factors[1]);
+        if (!splits) return {i};
+        std::vector<PlanInput> all = factors_of(v.factors[0]);
+        const std::vector<PlanInput> more = factors_of(v.factors[1]);
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    int depth_of(const PlanInput& i) const {
+        if (i.value < 0) return 0;
+        const PlanValue& v = m_plan.values[static_cast<std::size_t>(i.value)];
+        int depth = 0;
+        if (v.op == PlanOp::arithmetic) {
+            for (int k = 0; k < 2 * v.products; ++k)
+                depth = std::max(depth, 1 + depth_of(v.factors[static_cast<std::size_t>(k)]));
+        } else if (v.op == PlanOp::table) {
+            for (const PlanAxis& axis : m_plan.tables[static_cast<std::size_t>(v.index)].axes)
+                depth = std::max(depth, depth_of(axis.input));
+        }
+        return depth;
+    }
+    ValueKind kind_of(const PlanInput& i) const {
+        return i.value < 0 ? ValueKind::scalar
+                           : m_plan.values[static_cast<std::size_t>(i.value)].kind;
+    }
+
+    PlanInput summed(const std::vector<Product>& products) {
+        if (products.size() == 1 && products[0].b == one() && products[0].unit == 1.0)
+            return products[0].a;
         std::optional<Operand> sum_so_far;
         for (std::size_t i = 0; i < products.size();) {
             if (sum_so_far) {
@@ -646,7 +811,7 @@ class Planner {
                 i += 1;
             }
         }
-        if (sum_so_far) m_plan.color = sum_so_far->input;
+        return sum_so_far->input;
     }
 
     static bool is_one_minus(const Expr& e) {
@@ -659,7 +824,7 @@ class Planner {
     Ranges& m_ranges;
     Plan m_plan;
     std::map<const Expr*, TableDomain, ByAge> m_domains;
-    std::map<const Expr*, double, ByAge> m_reach;
+    std::map<const Expr*, double, ByAge> m_reach, m_shared_units;
     std::map<const Expr*, Operand, ByAge> m_lowered;
 };
 

@@ -35,9 +35,9 @@ struct PlanValue {
     PlanOp op = PlanOp::arithmetic;
     ValueKind kind = ValueKind::scalar;
     double unit = 1.0;
-    double low = 0.0, high = 1.0;  ///< of the value, in its own numbers
-    std::string name;              ///< inputs: "h", "l", "v", "n_dot_l", "h_dot_l"
-    int index = -1;                ///< of the quantity or of the table
+    bool is_signed = true;  ///< it may be negative
+    std::string name;       ///< inputs: "h", "l", "v", "n_dot_l", "h_dot_l", "lit"
+    int index = -1;         ///< of the quantity or of the table
     glm::dvec3 constant{0.0};
     // arithmetic: (a b [+ c d]) 2^doublings
     std::array<PlanInput, 4> factors{};
@@ -84,13 +84,19 @@ struct PlanQuantity {
     double low = 0.0;
 };
 
+/// The final combiner: a (e f) + d, or a b + d. Zero where nothing is named.
+struct PlanFinal {
+    PlanInput a, b, d, e, f;
+    bool has_product = false;  ///< b is e f
+};
+
 struct Plan {
     std::vector<PlanValue> values;
     std::vector<PlanTable> tables;
     std::vector<PlanQuantity> quantities;
     glm::dvec3 half_scale{1.0};
-    PlanInput color;  ///< what all terms make, with the light; unit 1
-    glm::dvec3 ambient{0.0};
+    PlanFinal final;
+    glm::dvec3 lit_tint{0.0}, lit_base{0.0};  ///< of the input "lit": n_dot_l * tint + base
 };
 
 }  // namespace burnish

@@ -102,9 +102,16 @@ class Scheduler {
         }
     }
 
+    [[nodiscard]] std::array<const PlanInput*, 5> final_inputs() const {
+        const PlanFinal& f = m_plan.final;
+        return {&f.a, &f.b, &f.d, &f.e, &f.f};
+    }
+
     void count_uses() {
         const int last = static_cast<int>(m_plan.values.size()) - 1;
-        if (m_plan.color.value >= 0) m_uses[at(m_plan.color.value)] = 1;
+        for (const PlanInput* i : final_inputs()) {
+            if (i->value >= 0) ++m_uses[at(i->value)];
+        }
         // Operands come before what they make, so whoever is needed is known to be by now.
         for (int i = last; i >= 0; --i) {
             if (m_uses[at(i)] == 0) continue;
@@ -128,12 +135,17 @@ class Scheduler {
     void place_inputs() {
         ProgramMaterial& m = m_out.material;
         m.half_scale = glm::vec3(m_plan.half_scale);
+        m.lit_tint = glm::vec3(m_plan.lit_tint);
+        m.lit_base = glm::vec3(m_plan.lit_base);
         int vectors = 0, numbers = 0;
         for (std::size_t i = 0; i < m_plan.values.size(); ++i) {
             const PlanValue& v = m_plan.values[i];
             if (v.op != PlanOp::input) continue;
             const int id = static_cast<int>(i);
-            if (v.kind == ValueKind::vector) {
+            if (v.name == "lit") {
+                m.col1_rgb = ColorInput::lit;
+                occupy(id, {Register::col1, false});
+            } else if (v.kind == ValueKind::vector) {
                 const ColorInput input = v.name == "h"   ? ColorInput::half_tangent
                                          : v.name == "l" ? ColorInput::light_tangent
                                                          : ColorInput::view_tangent;
@@ -202,7 +214,10 @@ class Scheduler {
     }
 
     [[nodiscard]] bool finished() const {
-        return m_plan.color.value < 0 || m_ready[at(m_plan.color.value)];
+        const auto inputs = final_inputs();
+        return std::all_of(inputs.begin(), inputs.end(), [&](const PlanInput* i) {
+            return i->value < 0 || m_ready[at(i->value)] || value(i->value).op == PlanOp::constant;
+        });
     }
 
     [[nodiscard]] bool operands_ready(const PlanValue& v) const {
@@ -372,22 +387,20 @@ class Scheduler {
     void finish() {
         CombinerProgram& p = program();
         FinalCombiner& f = p.final_combiner;
-        const auto raw = [](Register reg) { return combine::raw(reg); };
-        if (m_plan.color.value >= 0) f.d = raw(m_where[at(m_plan.color.value)].reg);
-        if (m_plan.ambient != glm::dvec3(0.0)) {
-            f.a = combine::one();
-            if (m_machine.stage_constants) m_constants = Constants();
-            const std::optional<Half> half =
-                m_constants.find(ValueKind::color, m_plan.ambient, true, false);
-            if (!half) throw Error(ErrorCode::bad_program, "no constant is left for ambient light");
-            m_constants.put(*half, m_plan.ambient);
-            f.b = raw(half->reg);
+        const PlanFinal& planned = m_plan.final;
+        if (m_machine.stage_constants) m_constants = Constants();
+        f.a = final_input(planned.a);
+        f.d = final_input(planned.d);
+        if (planned.has_product) {
+            f.b = combine::raw(Register::final_product);
+            f.e = final_input(planned.e);
+            f.f = final_input(planned.f);
+        } else {
+            f.b = final_input(planned.b);
         }
         f.g = combine::alpha(combine::one());
-        if (!m_machine.stage_constants || m_plan.ambient != glm::dvec3(0.0)) {
-            p.const0 = m_constants.color(0);
-            p.const1 = m_constants.color(1);
-        }
+        p.const0 = m_constants.color(0);
+        p.const1 = m_constants.color(1);
         ProgramMaterial& m = m_out.material;
         m.units.resize(static_cast<std::size_t>(m_units));
         if (m_out.pass_unit >= 0) {
@@ -405,6 +418,20 @@ class Scheduler {
                                                       : CoordinateInput::view_coded;
             m.texture_shader = shader;
         }
+    }
+
+    Input final_input(const PlanInput& from) {
+        if (from.value < 0) {
+            const bool is_one = from.mapping == Mapping::unsigned_invert;
+            return is_one ? combine::one() : combine::raw(Register::zero);
+        }
+        const std::optional<Input> input = operand(from, false, m_constants);
+        if (!input)
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("needs more constants than machine '{}' has", m_machine.name));
+        Input raw = *input;
+        if (raw.mapping == Mapping::signed_identity) raw.mapping = Mapping::unsigned_identity;
+        return raw;
     }
 
     const Plan& m_plan;
