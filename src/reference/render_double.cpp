@@ -38,10 +38,7 @@ glm::dvec3 normalised(const glm::dvec3& x) {
 class ObjectShader {
   public:
     ObjectShader(const DoubleScene& scene, const DoubleObject& object)
-        : m_object(object),
-          m_ambient(scene.ambient),
-          m_layer(object.model, object.layer),
-          m_lights(scene.lights) {
+        : m_object(object), m_ambient(scene.ambient), m_lights(scene.lights) {
         const double determinant = glm::determinant(object.world_from_object);
         if (determinant == 0.0 || !std::isfinite(determinant))
             throw Error(ErrorCode::bad_option, "object matrix has no inverse");
@@ -65,7 +62,7 @@ class ObjectShader {
         const glm::dvec3 t = mean(&DoubleVertex::tangent), b = mean(&DoubleVertex::bitangent),
                          n = mean(&DoubleVertex::normal);
         const glm::dvec3 position = mean(&DoubleVertex::position);
-        const Surface surface = m_layer.at(mean(&DoubleVertex::uv));
+        const Surface surface = m_object.surface->at(mean(&DoubleVertex::uv));
         const auto in_frame = [&](const glm::dvec3& x) {
             return glm::dvec3(glm::dot(t, x), glm::dot(b, x), glm::dot(n, x));
         };
@@ -85,7 +82,6 @@ class ObjectShader {
   private:
     const DoubleObject& m_object;
     glm::dvec3 m_ambient, m_eye{};
-    LayerSampler m_layer;
     std::vector<DoubleLight> m_lights;
 };
 
@@ -303,9 +299,8 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
     const reference::FrameSize size{target.width(), target.height()};
     try {
         return reference::render(
-            reference::double_scene(scene, size.width, size.height,
-                                    options.layer_machine.value_or(scene.machine)),
-            size, pattern, pool, [&](int x, int y, const glm::dvec4& color) {
+            reference::double_scene(scene, size.width, size.height, options.layer_machine), size,
+            pattern, pool, [&](int x, int y, const glm::dvec4& color) {
                 store(color, target.format(),
                       target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
             });
