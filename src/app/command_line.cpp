@@ -220,10 +220,14 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             "Where half vectors are computed: pixel or vertex")
         ->type_name("WHERE");
     add_camera_options(verb, picture.camera);
-    verb.add_option_function<std::string>(
+    verb.add_option_function<std::vector<std::string>>(
             "--light",
-            [&picture](const std::string& text) { picture.lights = {parse_light(text)}; },
-            "The only light: direction towards it, or its position if W is 1")
+            [&picture](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) picture.lights.push_back(parse_light(text));
+            },
+            "A light, instead of the scene's: direction towards it, or its position if W is 1; may "
+            "be given several times")
+        ->allow_extra_args(false)
         ->type_name("X,Y,Z[,W]");
     verb.add_option_function<std::string>(
             "--background",

@@ -24,17 +24,19 @@ struct LitVertex {
     float n_dot_l = 0.0F, h_dot_l = 0.0F;
 };
 
-/// Which of its vectors a list of varyings names.
+/// Which vectors of one light a list of varyings names.
 struct WantedVectors {
-    explicit WantedVectors(std::span<const Varying> list)
-        : half(names(list, Varying::Source::half_tangent) || names(list, Varying::Source::h_dot_l)),
-          light(names(list, Varying::Source::light_tangent)),
-          view(names(list, Varying::Source::view_tangent)) {}
-    static bool names(std::span<const Varying> list, Varying::Source source) {
-        return std::any_of(list.begin(), list.end(),
-                           [&](const Varying& v) { return v.source == source; });
+    WantedVectors(std::span<const Varying> list, int of_light) {
+        for (const Varying& v : list) {
+            if (v.light != of_light) continue;
+            any = true;
+            half |=
+                v.source == Varying::Source::half_tangent || v.source == Varying::Source::h_dot_l;
+            light |= v.source == Varying::Source::light_tangent;
+            view |= v.source == Varying::Source::view_tangent;
+        }
     }
-    bool half, light, view;
+    bool any = false, half = false, light = false, view = false;
 };
 
 LitVertex light_vertex(const VertexFrame& v, const LightSpace& space, const WantedVectors& wanted) {
@@ -109,18 +111,24 @@ glm::vec3 bitangent(const VertexFrame& v) {
 }
 
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   const LightSpace& space, const LitColors& lit, WorkerPool& pool,
-                   std::vector<float>& out) {
+                   std::span<const LightInputs> lights, WorkerPool& pool, std::vector<float>& out) {
     constexpr std::size_t kBatch = 1024;
     out.resize(vertices.size() * list.size());
     if (list.empty()) return;
-    const WantedVectors wanted(list);
     for_each_index(pool, (vertices.size() + kBatch - 1) / kBatch, 1, [&](std::size_t batch, int) {
         const std::size_t last = std::min(vertices.size(), (batch + 1) * kBatch);
-        for (std::size_t i = batch * kBatch; i < last; ++i) {
-            const LitVertex v = light_vertex(vertices[i], space, wanted);
-            float* to = out.data() + i * list.size();
-            for (const Varying& varying : list) *to++ = value_of(v, varying, lit);
+        for (int light = 0; light < static_cast<int>(lights.size()); ++light) {
+            const WantedVectors wanted(list, light);
+            if (!wanted.any) continue;
+            const LightInputs& inputs = lights[static_cast<std::size_t>(light)];
+            for (std::size_t i = batch * kBatch; i < last; ++i) {
+                const LitVertex v = light_vertex(vertices[i], inputs.space, wanted);
+                float* to = out.data() + i * list.size();
+                for (const Varying& varying : list) {
+                    if (varying.light == light) *to = value_of(v, varying, inputs.lit);
+                    ++to;
+                }
+            }
         }
     });
 }

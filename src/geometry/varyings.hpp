@@ -34,6 +34,7 @@ struct Varying {
     };
     Source source;
     int index;
+    int light = 0;  ///< whose it is; 0 for what no light changes
     friend bool operator==(const Varying&, const Varying&) = default;
 };
 
@@ -42,10 +43,15 @@ struct LitColors {
     glm::vec3 tint{1.0F}, base{0.0F};
 };
 
+/// What vertices and pixels need to know of a light.
+struct LightInputs {
+    LightSpace space;
+    LitColors lit;
+};
+
 /// Values of `list` for every vertex, vertex by vertex. Vectors are unit length at the vertex.
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   const LightSpace& space, const LitColors& lit, WorkerPool& pool,
-                   std::vector<float>& out);
+                   std::span<const LightInputs> lights, WorkerPool& pool, std::vector<float>& out);
 /// Colours are clamped to [0, 1]; nine-bit machines drop what lies below
 /// 2^-22.
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,

@@ -63,12 +63,13 @@ class Planner {
   public:
     /// @param units  of a pass: what they are in the whole material
     Planner(Shading& shading, const ProgramMaterial& material, const Machine& machine, bool is_mesh,
-            std::span<const PassUnit> units)
+            int light, std::span<const PassUnit> units)
         : m_shading(shading),
           m_material(material),
           m_units(units),
           m_machine(machine),
           m_is_mesh(is_mesh),
+          m_light(light),
           m_per_pixel(machine.half_vector == HalfVector::pixel),
           m_sampling{shading.program.numbers, kSampleScratch, shading.program.plane_count},
           m_free{kUnitAttributes, shading.program.plane_count + kSamplePlanes} {
@@ -80,13 +81,13 @@ class Planner {
         m_slots = color_slots(material, shading.program);
     }
 
-    void plan(const LightSpace& space) {
+    void plan() {
         for (const ColorSlot& slot : m_slots) {
             if (!m_is_mesh && slot.input != ColorInput::vertex) {
                 throw Error(ErrorCode::bad_program,
                             "raw vertices carry no normals: their colours can only be 'vertex'");
             }
-            if (varies_per_vertex(slot)) varying({source_of(slot), index_of(slot)});
+            if (varies_per_vertex(slot)) plane_of(slot);
         }
         plan_textures();  // adds the coordinates of raw vertices
         std::vector<InputOp> encodings;
@@ -98,7 +99,7 @@ class Planner {
                 encodings.emplace_back(EncodeCtx{attribute, slot.plane});
             }
         }
-        plan_lighting(space);
+        plan_lighting(m_shading.lights[static_cast<std::size_t>(m_light)].space);
         std::vector<InputOp>& inputs = m_shading.inputs;
         inputs.insert(inputs.end(), m_vector_ops.begin(), m_vector_ops.end());
         inputs.insert(inputs.end(), encodings.begin(), encodings.end());
@@ -114,6 +115,10 @@ class Planner {
     /// One number for every component.
     [[nodiscard]] static bool is_cosine(ColorInput input) {
         return input == ColorInput::n_dot_l || input == ColorInput::h_dot_l;
+    }
+    [[nodiscard]] static bool depends_on_light(ColorInput input) {
+        return is_cosine(input) || input == ColorInput::half_tangent ||
+               input == ColorInput::light_tangent || input == ColorInput::lit;
     }
     [[nodiscard]] static int index_of(const ColorSlot& slot) {
         return is_cosine(slot.input) ? 0 : slot.component;
@@ -145,7 +150,11 @@ class Planner {
     }
     /// Attribute plane of what a vertex or the lighting stage delivers.
     int plane_of(const ColorSlot& slot) {
-        if (varies_per_vertex(slot)) return varying({source_of(slot), index_of(slot)});
+        if (depends_on_light(slot.input)) m_shading.reads_light = true;
+        if (varies_per_vertex(slot)) {
+            const int light = depends_on_light(slot.input) ? m_light : 0;
+            return varying({source_of(slot), index_of(slot), light});
+        }
         return lighting_plane(slot.input) + index_of(slot);
     }
 
@@ -278,7 +287,9 @@ class Planner {
     const ProgramMaterial& m_material;
     std::span<const PassUnit> m_units;
     const Machine& m_machine;
-    bool m_is_mesh, m_per_pixel;
+    bool m_is_mesh;
+    int m_light;  ///< of the shading's
+    bool m_per_pixel;
     SamplePlan m_sampling;
     FreePlanes m_free;
     std::vector<ColorSlot> m_slots;
@@ -289,7 +300,8 @@ class Planner {
 
 /// Binds and plans one pass. Attributes that earlier passes asked for keep their places.
 void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-               bool is_mesh, const Wanted& wanted, std::span<const PassUnit> units = {}) {
+               bool is_mesh, int light, const Wanted& wanted,
+               std::span<const PassUnit> units = {}) {
     shading.unit_states = unit_states(material, machine);
     for (std::size_t i = 0; i < units.size(); ++i) {
         const std::uint32_t bit = 1U << i;
@@ -298,7 +310,7 @@ void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine&
         shading.unit_states.black &= ~bit;
     }
     shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
-    Planner(shading, material, machine, is_mesh, units).plan(shading.space);
+    Planner(shading, material, machine, is_mesh, light, units).plan();
 }
 
 bool has_room_for(const Machine& machine, const ProgramMaterial& material) {
@@ -354,13 +366,14 @@ void add_frames(const ProgramPass& pass, int first_frame, const BoundProgram& pr
 }
 
 void plan_passes(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                 bool is_mesh) {
+                 bool is_mesh, int light) {
     const std::vector<ProgramPass> passes = split_into_passes(
         material.combiners, machine, unit_texels(material), material.texture_shader.has_value());
     int first_frame = 0;  // behind the planes of all passes
     bool quads = false;
     for (const ProgramPass& pass : passes) {
-        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, {}, pass.units);
+        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, light, {},
+                  pass.units);
         first_frame = std::max(first_frame, shading.program.plane_count);
         quads |= shading.quads;
         if (&pass == &passes.back()) break;
@@ -376,25 +389,87 @@ void plan_passes(Shading& shading, const ProgramMaterial& material, const Machin
     shading.program.plane_count = first_frame + 4 * static_cast<int>(shading.earlier_passes.size());
 }
 
-}  // namespace
-
-void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                  bool is_mesh, const Wanted& wanted) {
-    shading.textures = material.units;
-    shading.varying_list.clear();
+/// Passes and inputs of one light. Attributes that other lights asked for keep their places.
+void plan_light(Shading& shading, const ProgramMaterial& material, const Machine& machine,
+                bool is_mesh, int light, const Wanted& wanted) {
+    shading.textures.insert(shading.textures.end(), material.units.begin(), material.units.end());
     shading.earlier_passes.clear();
     if (machine.multipass && !has_room_for(machine, material)) {
         // Registers between the passes are those of the whole program.
         const bool inside = wanted.everything || wanted.reg;
-        if (!inside) return plan_passes(shading, material, machine, is_mesh);
-        return plan_pass(shading, material, with_room(machine), is_mesh, wanted);
+        if (!inside) return plan_passes(shading, material, machine, is_mesh, light);
+        return plan_pass(shading, material, with_room(machine), is_mesh, light, wanted);
     }
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
         throw Error(ErrorCode::bad_program,
                     fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
                                 machine.name, machine.texture_units));
     }
-    plan_pass(shading, material, machine, is_mesh, wanted);
+    plan_pass(shading, material, machine, is_mesh, light, wanted);
+}
+
+/// sum = a + b, at most 1: products with 1 are exact in both number models.
+PortionCtx sum_of(const std::array<std::int16_t, 4>& a, const std::array<std::int16_t, 3>& b,
+                  const std::array<std::int16_t, 3>& sum, std::int16_t zero, std::int16_t trash) {
+    const auto mapping = [](Mapping m) { return static_cast<std::uint8_t>(m); };
+    PortionCtx add{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        add.a.plane[c] = a[c];
+        add.c.plane[c] = b[c];
+        add.b.plane[c] = add.d.plane[c] = zero;
+        add.ab_out[c] = add.cd_out[c] = trash;
+        add.third_out[c] = sum[c];
+    }
+    add.a.mapping = add.c.mapping = mapping(Mapping::signed_identity);
+    add.b.mapping = add.d.mapping = mapping(Mapping::unsigned_invert);  // of 0: 1
+    add.ab = add.cd = ProductKind::multiply;
+    add.third = ThirdKind::sum;
+    add.scale = OutputScale::one;
+    add.rounding = Rounding::nearest;
+    add.components = 3;
+    return add;
+}
+
+/// Sums of lights in planes behind those of all programs; no portion reads what it writes.
+void plan_sums(Shading& shading) {
+    int planes = shading.program.plane_count;
+    for (const FurtherLight& light : shading.further_lights)
+        planes = std::max(planes, light.program.plane_count);
+    const auto next = [&] { return static_cast<std::int16_t>(planes++); };
+    const std::int16_t zero = next(), trash = next();
+    std::array<std::int16_t, 3> sum{zero, zero, zero}, free{next(), next(), next()},
+        other{next(), next(), next()};
+    const auto add = [&](const LightShading& light) {
+        const PortionCtx ctx = sum_of(light.program.result, sum, free, zero, trash);
+        sum = free;
+        std::swap(free, other);
+        return ctx;
+    };
+    for (FurtherLight& light : shading.further_lights) light.add = add(light);
+    shading.add_first = add(shading);
+    shading.zero_plane = zero;
+    std::copy(sum.begin(), sum.end(), shading.result.begin());
+    shading.program.plane_count = planes;
+}
+
+}  // namespace
+
+void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
+                  const Machine& machine, bool is_mesh, const Wanted& wanted) {
+    shading.textures.clear();
+    shading.varying_list.clear();
+    shading.further_lights.clear();
+    shading.reads_light = false;
+    bool quads = false;
+    for (std::size_t i = 1; i < programs.size(); ++i) {
+        plan_light(shading, programs[i], machine, is_mesh, static_cast<int>(i), wanted);
+        quads |= shading.quads;
+        shading.further_lights.push_back({std::move(static_cast<LightShading&>(shading)), {}});
+    }
+    plan_light(shading, programs.front(), machine, is_mesh, 0, wanted);
+    shading.quads |= quads;
+    shading.result = shading.program.result;
+    if (programs.size() > 1) plan_sums(shading);
 }
 
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out) {
