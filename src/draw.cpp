@@ -118,13 +118,18 @@ void prepare_shading(Shading& shading, const FrameView& frame, const Object& obj
                      std::span<const ProgramMaterial> programs, std::size_t first_light,
                      const Wanted& wanted) {
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
+    const Machine& machine = frame.scene->machine;
     shading.lights.clear();
     for (std::size_t i = 0; i < programs.size(); ++i) {
         const Light light = light_of(*frame.scene, first_light + i);
-        shading.lights.push_back({light_space(light, frame.view, object.world_from_object),
-                                  {programs[i].lit_tint, programs[i].lit_base}});
+        shading.lights.push_back(
+            {light_space(light, frame.view, machine.viewer, object.world_from_object),
+             {programs[i].lit_tint, programs[i].lit_base},
+             {machine.normalise_half_vector,
+              machine.tangent_frames == TangentFrames::orthonormal}});
     }
-    plan_shading(shading, programs, frame.scene->machine, mesh != nullptr, wanted);
+    shading.half_cube = frame.half_cube;
+    plan_shading(shading, programs, machine, mesh != nullptr, wanted);
     shading.frames = mesh != nullptr ? mesh->frames() : std::span<const VertexFrame>{};
 }
 
@@ -166,7 +171,8 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t
                 material.name));
     }
     const Light source = light_of(scene, light);
-    return compile_abp_modified(material, scene.machine, source.color * source.intensity,
+    return compile_abp_modified(material, scene.machine.for_programs(),
+                                source.color * source.intensity,
                                 light == 0 ? scene.ambient : glm::vec3(0.0F), maps);
 }
 

@@ -45,6 +45,7 @@ struct FrameView {
     std::optional<ShownRegister> shown = {};
     std::optional<Aov> aov = {};
     PixelFormat format = PixelFormat::rgba8;
+    TexturePtr half_cube = {};  ///< of HalfVectorCube
 };
 
 /// What draws `object` in the light number `light`: its program, or its model as a program for the

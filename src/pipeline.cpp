@@ -12,6 +12,7 @@
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
 #include "raster/bin.hpp"
+#include "shade/normalisation_cube.hpp"
 #include "shade/packets.hpp"
 
 namespace burnish {
@@ -83,6 +84,7 @@ struct Renderer::State {
     std::vector<std::unique_ptr<Worker>> workers;
     AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
+    HalfVectorCube half_cube;
 };
 
 Renderer::Renderer(const RendererOptions& options) : m_state(std::make_unique<State>(options)) {}
@@ -154,7 +156,8 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
              make_viewport(scene.machine, size.width, size.height),
              shown,
              aov,
-             target.format()};
+             target.format(),
+             half_cube.of(scene.machine)};
     while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
     draws.resize(scene.objects.size());
     ranges.clear();

@@ -203,8 +203,7 @@ TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string material = "[[materials]]\nname = \"m\"\n";
     const std::vector<std::string> texts{
         "[machine]\nprofile = \"double\"\n", "[machine]\nfilter_order = \"after\"\n",
-        "[machine]\nhalf_vector = \"cube:64\"\n", texture + "mipmaps = \"toksvig\"\n",
-        material + "normal_y = \"down\"\n"};
+        texture + "mipmaps = \"toksvig\"\n", material + "normal_y = \"down\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }

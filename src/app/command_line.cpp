@@ -212,12 +212,13 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
     verb.add_option_function<std::string>(
             "--half-vector",
             [&picture](const std::string& word) {
-                picture.half_vector =
-                    known_word("--half-vector", word, {"pixel", "vertex"}) == "pixel"
-                        ? HalfVector::pixel
-                        : HalfVector::vertex;
+                Machine tried;
+                choose_half_vector(tried, word);
+                picture.half_vector = word;
             },
-            "Where half vectors are computed: pixel or vertex")
+            "Where half vectors are computed: pixel, vertex, or cube:N, per vertex and normalised "
+            "by "
+            "a cube map of N texels a side")
         ->type_name("WHERE");
     add_camera_options(verb, picture.camera);
     verb.add_option_function<std::vector<std::string>>(

@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "shade/normalisation_cube.hpp"
+
 namespace burnish {
 
 namespace {
@@ -101,6 +103,7 @@ class Planner {
         }
         plan_lighting(m_shading.lights[static_cast<std::size_t>(m_light)].space);
         std::vector<InputOp>& inputs = m_shading.inputs;
+        inputs.insert(inputs.end(), m_cube_ops.begin(), m_cube_ops.end());
         inputs.insert(inputs.end(), m_vector_ops.begin(), m_vector_ops.end());
         inputs.insert(inputs.end(), encodings.begin(), encodings.end());
         for (PlannedUnit& unit : m_shading.units) unit.first_op += inputs.size();
@@ -151,11 +154,36 @@ class Planner {
     /// Attribute plane of what a vertex or the lighting stage delivers.
     int plane_of(const ColorSlot& slot) {
         if (depends_on_light(slot.input)) m_shading.reads_light = true;
+        if (slot.input == ColorInput::half_tangent && m_machine.half_vector == HalfVector::cube) {
+            return cube_plane() + slot.component;
+        }
         if (varies_per_vertex(slot)) {
             const int light = depends_on_light(slot.input) ? m_light : 0;
             return varying({source_of(slot), index_of(slot), light});
         }
         return lighting_plane(slot.input) + index_of(slot);
+    }
+
+    /// First attribute plane of the half vector that the cube map normalises, coded.
+    int cube_plane() {
+        if (m_cube_plane >= 0) return m_cube_plane;
+        const auto sum = [&](int c) { return varying({Varying::Source::half_sum, c, m_light}); };
+        const SampleCoordinates at{sum(0), sum(1), sum(2), -1, true};
+        if (!m_shading.half_cube) {
+            m_shading.half_cube =
+                normalisation_cube(m_machine.half_vector_size, m_machine.half_vector_bits);
+        }
+        m_shading.textures.push_back(m_shading.half_cube);
+        const int texel = m_free.reg;
+        m_free.reg += 4;
+        m_cube_plane = m_free.attribute;
+        m_free.attribute += 3;
+        SamplePlan sampling{m_sampling.numbers, m_sampling.attributes, m_sampling.planes};
+        plan_sample(*m_shading.half_cube, at, {texel, -1}, sampling, m_cube_ops);
+        for (int c = 0; c < 3; ++c)
+            m_cube_ops.emplace_back(
+                DecodeCtx{texel + c, m_cube_plane + c, Reading::unsigned_texel});
+        return m_cube_plane;
     }
 
     /// First attribute plane of what the lighting stage delivers, which is asked for by this.
@@ -181,6 +209,9 @@ class Planner {
             m_lighting.eye[i] = space.eye[i];
         }
         m_lighting.light_w = space.light_w;
+        m_lighting.eye_w = space.eye_w;
+        m_lighting.raw_half = m_machine.normalise_half_vector ? 0 : 1;
+        m_lighting.orthonormal = m_machine.tangent_frames == TangentFrames::mikktspace ? 0 : 1;
         const bool used = m_lighting.half_vector >= 0 || m_lighting.light_vector >= 0 ||
                           m_lighting.view_vector >= 0 || m_lighting.n_dot_l >= 0 ||
                           m_lighting.h_dot_l >= 0;
@@ -294,7 +325,8 @@ class Planner {
     FreePlanes m_free;
     std::vector<ColorSlot> m_slots;
     std::vector<VectorComponent> m_vectors;
-    std::vector<InputOp> m_vector_ops, m_texture_ops;
+    std::vector<InputOp> m_cube_ops, m_vector_ops, m_texture_ops;
+    int m_cube_plane = -1;
     LightingCtx m_lighting{};
 };
 
@@ -401,9 +433,11 @@ void plan_light(Shading& shading, const ProgramMaterial& material, const Machine
         return plan_pass(shading, material, with_room(machine), is_mesh, light, wanted);
     }
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
+        const bool cube = machine.half_vector == HalfVector::cube;
         throw Error(ErrorCode::bad_program,
-                    fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
-                                machine.name, machine.texture_units));
+                    fmt::format("{} texture units, machine '{}' has {}{}", material.units.size(),
+                                machine.name, machine.texture_units,
+                                cube ? " besides the one that normalises half vectors" : ""));
     }
     plan_pass(shading, material, machine, is_mesh, light, wanted);
 }
@@ -455,7 +489,8 @@ void plan_sums(Shading& shading) {
 }  // namespace
 
 void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
-                  const Machine& machine, bool is_mesh, const Wanted& wanted) {
+                  const Machine& whole_machine, bool is_mesh, const Wanted& wanted) {
+    const Machine machine = whole_machine.for_programs();
     shading.textures.clear();
     shading.varying_list.clear();
     shading.further_lights.clear();

@@ -29,7 +29,7 @@ inline constexpr int kLightingAttributes = kMaxInterpolated;
 inline constexpr int kSampleScratch = kLightingAttributes + 11;
 /// What texture units compute on the way to their coordinates lies behind these.
 inline constexpr int kUnitAttributes = kSampleScratch + kSampleAttributes;
-inline constexpr int kMaxAttributes = kUnitAttributes + 118;
+inline constexpr int kMaxAttributes = kUnitAttributes + 121;
 
 /// The input operations of a fetch between portions.
 struct StageSampling {
@@ -81,6 +81,7 @@ struct Shading : LightShading {
     PortionCtx add_first{};              ///< the first light to the further ones
     int zero_plane = -1;                 ///< for sums of lights: must hold 0
     std::array<std::int16_t, 4> result;  ///< planes of r, g, b, a
+    TexturePtr half_cube;                ///< of HalfVector::cube; null: made when it is needed
     std::vector<TexturePtr> textures;    ///< keeps the texels alive
 
     [[nodiscard]] int interpolated() const {

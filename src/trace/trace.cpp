@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "shade/normalisation_cube.hpp"
 #include "trace/fragment.hpp"
 #include "trace/pixel.hpp"
 #include "trace/program.hpp"
@@ -23,6 +24,7 @@ class TracedFrame {
         : m_scene(scene),
           m_view{&scene, make_view(scene.camera, scene.width, scene.height),
                  make_viewport(scene.machine, scene.width, scene.height)} {
+        m_view.half_cube = HalfVectorCube().of(scene.machine);
         for (const Object& object : scene.objects) {
             m_draws.push_back(std::make_unique<Draw>());
             prepare_draw(*m_draws.back(), m_view, object, m_maps);
