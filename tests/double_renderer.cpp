@@ -22,6 +22,7 @@
 #include "reference/render_double.hpp"
 #include "reference/shade.hpp"
 #include "reference/surface_sampler.hpp"
+#include "reference/tangent_frame.hpp"
 
 namespace burnish {
 namespace {
@@ -217,6 +218,7 @@ DoubleScene rotated(DoubleScene scene, const glm::dmat3& rotation, bool vertices
     const glm::dmat4 whole(rotation);
     scene.view.clip_from_world = scene.view.clip_from_world * glm::transpose(whole);
     scene.view.eye = rotation * scene.view.eye;
+    scene.view.back = rotation * scene.view.back;
     for (auto& light : scene.lights) light.position = rotation * light.position;
     for (auto& object : scene.objects) {
         if (!vertices) {
@@ -506,15 +508,17 @@ TEST(DoubleTextureTest, QuantitiesAreDecodedAfterTheFilter) {
     layer[0].components = layer[1].components = layer[2].components = 3;
     layer[1].constant = {0.1, 0.2, 0.3};
     layer[3] = exponent;
-    const auto middle = [&] {
-        return reference::layer_surface(Model::kajiya_kay, layer)->at({0.5, 0.0});
-    };
+    const std::shared_ptr<Material> material = material_of(Model::kajiya_kay);
+    const auto middle = [&] { return reference::layer_surface(*material, layer)->at({0.5, 0.0}); };
     EXPECT_EQ(middle().N, glm::dvec3(0.0));
     layer[3].logarithmic = true;
     EXPECT_EQ(middle().N, glm::dvec3(1.0));
     EXPECT_EQ(middle().ks, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(middle().t, glm::dvec3(0.0));
+    // What the layer does without is the material's own.
     layer.erase(layer.begin());
-    EXPECT_THROW(middle(), Error);
+    EXPECT_EQ(middle().t, glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(middle().N, glm::dvec3(1.0));
 }
 
 // alpha_x is 0.2 and 0.8, alpha_y 0.5, N 10 and 30: quantities are filtered, so half-way t /
@@ -736,6 +740,80 @@ TEST(DoubleShadingTest, AFarLightIsADirection) {
     EXPECT_LT(root_mean_square(pixels_of(scene), direction), 1e-6);
     scene.lights[0].position *= 2e-7F;
     EXPECT_GT(root_mean_square(pixels_of(scene), direction), 1e-3);
+}
+
+/// A triangle whose vertices' axes are short and askew. u runs along y, v upward along -2 x.
+struct SkewTriangle {
+    std::array<reference::DoubleVertex, 3> v;
+
+    SkewTriangle() {
+        for (auto& vertex : v) {
+            vertex.tangent = {0.4, 0.3, 0.0};
+            vertex.bitangent = {-0.3, 0.4, 0.1};
+            vertex.normal = {0.0, 0.3, 0.4};
+        }
+        v[0].position = {0.0, 0.0, 0.0};
+        v[1].position = {0.0, 1.0, 0.0};
+        v[2].position = {2.0, 0.0, 0.0};
+        v[0].uv = {0.0, 1.0};
+        v[1].uv = {1.0, 1.0};
+        v[2].uv = {0.0, 2.0};
+    }
+    [[nodiscard]] reference::TangentFrame frame(TangentFrames kind) const {
+        return reference::tangent_frame({{&v[0], &v[1], &v[2]}, {0.5, 0.25, 0.25}}, kind);
+    }
+};
+
+// n = (0, 0.6, 0.8); t = (0.4, 0.3, 0) less n times its 0.18: (0.4, 0.192, -0.144), length
+// sqrt(0.2176).
+TEST(DoubleShadingTest, FramesAreInterpolatedOrMadeOrthonormal) {
+    SkewTriangle triangle;
+    const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
+        EXPECT_LT(largest({a - b, 0.0}), 1e-15) << a.x << " " << a.y << " " << a.z;
+    };
+    const reference::TangentFrame plain = triangle.frame(TangentFrames::mikktspace);
+    near(plain.t, {0.4, 0.3, 0.0});
+    near(plain.b, {-0.3, 0.4, 0.1});
+    near(plain.n, {0.0, 0.3, 0.4});
+    const reference::TangentFrame straight = triangle.frame(TangentFrames::orthonormal);
+    const glm::dvec3 t = glm::dvec3(0.4, 0.192, -0.144) / std::sqrt(0.2176);
+    near(straight.n, {0.0, 0.6, 0.8});
+    near(straight.t, t);
+    near(straight.b, glm::cross(straight.n, t));
+    // Mirrored uv: the bitangent keeps its side.
+    for (auto& vertex : triangle.v) vertex.bitangent *= -1.0;
+    near(triangle.frame(TangentFrames::orthonormal).b, -straight.b);
+}
+
+// dP/du = (0, 1, 0), perpendicular to n: (0, 0.64, -0.48) / 0.8. dP/dv = (-2, 0, 0), and n x t is
+// (-1, 0, 0).
+TEST(DoubleShadingTest, FramesFromUvFollowTheTriangle) {
+    SkewTriangle triangle;
+    const reference::TangentFrame frame = triangle.frame(TangentFrames::derivative);
+    EXPECT_LT(largest({frame.t - glm::dvec3(0.0, 0.8, -0.6), 0.0}), 1e-15);
+    EXPECT_LT(largest({frame.b - glm::dvec3(-1.0, 0.0, 0.0), 0.0}), 1e-15);
+    triangle.v[2].uv = {0.0, 0.0};  // v downward along x
+    EXPECT_LT(
+        largest({triangle.frame(TangentFrames::derivative).b - glm::dvec3(1.0, 0.0, 0.0), 0.0}),
+        1e-15);
+    triangle.v[2].uv = {2.0, 1.0};  // on a line
+    EXPECT_EQ(triangle.frame(TangentFrames::derivative).t,
+              triangle.frame(TangentFrames::orthonormal).t);
+}
+
+TEST(DoubleShadingTest, AViewerFarAwayIsADirection) {
+    Scene scene = sphere_scene(Model::abp, 24, 24);
+    scene.camera.position = {0.0F, 0.0F, 3000.0F};
+    scene.camera.near = 2900.0F;
+    scene.camera.far = 3100.0F;
+    scene.camera.view_angle = 0.05F;
+    const auto local = pixels_of(scene);
+    scene.machine.viewer = Viewer::infinite;
+    EXPECT_LT(root_mean_square(pixels_of(scene), local), 1e-3);
+    scene.camera = {};
+    const auto infinite = pixels_of(scene);
+    scene.machine.viewer = Viewer::local;
+    EXPECT_GT(root_mean_square(pixels_of(scene), infinite), 1e-2);
 }
 
 // Uniform scaling and where an object's axes lie are the business of its matrix alone.

@@ -98,10 +98,14 @@ TEST_P(KernelTest, LightingOfRandomFrames) {
             ctx.eye[i] = random.real(-10.0F, 10.0F);
         }
         ctx.light_w = random.chance(2) ? 1.0F : 0.0F;
+        ctx.eye_w = random.chance(3) ? 0.0F : 1.0F;
+        ctx.raw_half = random.chance(3) ? 1 : 0;
+        ctx.orthonormal = random.chance(2) ? 1 : 0;
         ctx.half_vector = random.chance(3) ? -1 : 17;
         ctx.light_vector = random.chance(3) ? -1 : 20;
         ctx.view_vector = random.chance(3) ? -1 : 23;
         ctx.n_dot_l = random.chance(3) ? -1 : 26;
+        ctx.h_dot_l = random.chance(3) ? -1 : 27;
         for (int k = 0; k < 12; ++k) {
             for (int i = 0; i < packet.count; ++i)
                 packet.attribute(ctx.frame + k)[i] = random.real(-1.5F, 1.5F);
@@ -117,7 +121,8 @@ TEST_P(KernelTest, LightingOfRandomFrames) {
         Written written;
         for (const int first : {ctx.half_vector, ctx.light_vector, ctx.view_vector})
             for (int c = 0; c < 3 && first >= 0; ++c) written.attributes.push_back(first + c);
-        if (ctx.n_dot_l >= 0) written.attributes.push_back(ctx.n_dot_l);
+        for (const int plane : {ctx.n_dot_l, ctx.h_dot_l})
+            if (plane >= 0) written.attributes.push_back(plane);
         ASSERT_EQ(stage_difference(table(), &KernelTable::lighting, packet, ctx, written), "")
             << name("lighting") << ", seed " << seed;
     }

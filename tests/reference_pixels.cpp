@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -211,7 +212,7 @@ TEST_P(ReferencePixels, LightingInTheFrameOfTheSurface) {
     const std::array<float, 12> frame{1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 6, 7};
     for (int k = 0; k < 12; ++k) packet.attribute(k)[0] = frame[static_cast<std::size_t>(k)];
     // Light (3, 0, 4) away: (0.6, 0, 0.8). Eye straight above.
-    LightingCtx ctx{0, {8, 6, 11}, 1.0F, {5, 6, 9}, -1, 12, 15, 18};
+    LightingCtx ctx{0, {8, 6, 11}, 1.0F, {5, 6, 9}, -1, 12, 15, 18, 19};
     Packet view = packet.view();
     table().lighting(view, ctx);
     EXPECT_FLOAT_EQ(packet.attribute(12)[0], 0.8F);
@@ -220,8 +221,9 @@ TEST_P(ReferencePixels, LightingInTheFrameOfTheSurface) {
     EXPECT_EQ(packet.attribute(15)[0], 0.5F);
     EXPECT_EQ(packet.attribute(17)[0], 1.0F);
     EXPECT_FLOAT_EQ(packet.attribute(18)[0], 0.8F);
+    EXPECT_FLOAT_EQ(packet.attribute(19)[0], std::sqrt(0.9F));  // half the angle: (1 + 0.8) / 2
     // A directional light is no position; from below the surface it gives no light.
-    ctx = {0, {0, 0, -2}, 0.0F, {5, 6, 9}, -1, -1, -1, 18};
+    ctx = {0, {0, 0, -2}, 0.0F, {5, 6, 9}, -1, -1, -1, 18, -1};
     table().lighting(view, ctx);
     EXPECT_EQ(packet.attribute(18)[0], 0.0F);
 }

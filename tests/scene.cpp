@@ -201,9 +201,9 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
     const std::string material = "[[materials]]\nname = \"m\"\n";
-    const std::vector<std::string> texts{
-        "[machine]\nfilter_order = \"after\"\n", "[machine]\nhalf_vector = \"cube:64\"\n",
-        texture + "mipmaps = \"toksvig\"\n", material + "normal_y = \"down\"\n"};
+    const std::vector<std::string> texts{"[machine]\nfilter_order = \"after\"\n",
+                                         texture + "mipmaps = \"toksvig\"\n",
+                                         material + "normal_y = \"down\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }
@@ -217,7 +217,7 @@ TEST_F(SceneFiles, ProfileDoubleTakesTheKeysOfMachines) {
     EXPECT_TRUE(machine.double_precision);
     EXPECT_EQ(machine.name, "double");
     EXPECT_SAYS(bad("[machine]\nprofile = \"double\"\nhalf_vector = \"vertex\"\n"),
-                "expected \"pixel\" with profile double");
+                "half vectors of profile double");
 }
 
 TEST_F(SceneFiles, DefaultValuesOfSuchKeysAreAccepted) {
@@ -395,7 +395,12 @@ units = []
 col0_rgb = "half_tangent"
 col0_a = "n_dot_l"
 col1_rgb = "view_tangent"
+col1_a = "h_dot_l"
+half_scale = [4, 4, 1.5]
 uv0 = "uv"
+uv1 = "half_coded"
+uv2 = "light_coded"
+uv3 = "view_coded"
 [[objects]]
 shape = "cube"
 material = "m"
@@ -404,7 +409,11 @@ material = "m"
     EXPECT_EQ(program.col0_rgb, ColorInput::half_tangent);
     EXPECT_EQ(program.col0_a, ColorInput::n_dot_l);
     EXPECT_EQ(program.col1_rgb, ColorInput::view_tangent);
-    EXPECT_EQ(program.col1_a, ColorInput::vertex);
+    EXPECT_EQ(program.col1_a, ColorInput::h_dot_l);
+    EXPECT_EQ(program.half_scale, glm::vec3(4.0F, 4.0F, 1.5F));
+    EXPECT_EQ(program.uv[1], CoordinateInput::half_coded);
+    EXPECT_EQ(program.uv[2], CoordinateInput::light_coded);
+    EXPECT_EQ(program.uv[3], CoordinateInput::view_coded);
 }
 
 TEST_F(SceneFiles, RawVerticesArriveWithTheirDefaults) {

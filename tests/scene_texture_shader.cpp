@@ -64,7 +64,8 @@ TEST_F(SceneTextureShaders, CoordinatesOfUnits) {
     EXPECT_EQ(p.uv[3], CoordinateInput::vertex);
     EXPECT_EQ(p.col0_rgb, ColorInput::normal);
     EXPECT_SAYS(complaint(std::string(kUnits) + "[materials.inputs]\nuv0 = \"view\"\n"),
-                "expected uv, half_tangent, light_tangent, view_tangent, vertex");
+                "expected uv, half_tangent, light_tangent, view_tangent, half_coded, light_coded, "
+                "view_coded, vertex");
 }
 
 TEST_F(SceneTextureShaders, CullBitsReplaceTheTests) {

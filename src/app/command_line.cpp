@@ -218,18 +218,23 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
     verb.add_option_function<std::string>(
             "--half-vector",
             [&picture](const std::string& word) {
-                picture.half_vector =
-                    known_word("--half-vector", word, {"pixel", "vertex"}) == "pixel"
-                        ? HalfVector::pixel
-                        : HalfVector::vertex;
+                Machine tried;
+                choose_half_vector(tried, word);
+                picture.half_vector = word;
             },
-            "Where half vectors are computed: pixel or vertex")
+            "Where half vectors are computed: pixel, vertex, or cube:N, per vertex and normalised "
+            "by "
+            "a cube map of N texels a side")
         ->type_name("WHERE");
     add_camera_options(verb, picture.camera);
-    verb.add_option_function<std::string>(
+    verb.add_option_function<std::vector<std::string>>(
             "--light",
-            [&picture](const std::string& text) { picture.lights = {parse_light(text)}; },
-            "The only light: direction towards it, or its position if W is 1")
+            [&picture](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) picture.lights.push_back(parse_light(text));
+            },
+            "A light, instead of the scene's: direction towards it, or its position if W is 1; may "
+            "be given several times")
+        ->allow_extra_args(false)
         ->type_name("X,Y,Z[,W]");
     verb.add_option_function<std::string>(
             "--background",

@@ -28,7 +28,7 @@ struct PictureOptions {
     std::optional<glm::ivec2> size;
     std::optional<std::string> machine;
     bool multipass = false;
-    std::optional<HalfVector> half_vector;
+    std::optional<std::string> half_vector;  ///< of choose_half_vector
     CameraOptions camera;
     std::vector<Light> lights;  ///< instead of the scene's, if not empty
     std::optional<glm::vec4> background;

@@ -14,31 +14,38 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ColorInput>, 6> kRgbInputs{
+constexpr std::array<std::pair<std::string_view, ColorInput>, 7> kRgbInputs{
     {{"vertex", ColorInput::vertex},
      {"half_tangent", ColorInput::half_tangent},
      {"light_tangent", ColorInput::light_tangent},
      {"view_tangent", ColorInput::view_tangent},
      {"normal", ColorInput::normal},
-     {"n_dot_l", ColorInput::n_dot_l}}};
-constexpr std::array<std::pair<std::string_view, CoordinateInput>, 5> kCoordinateInputs{
+     {"n_dot_l", ColorInput::n_dot_l},
+     {"h_dot_l", ColorInput::h_dot_l}}};
+constexpr std::array<std::pair<std::string_view, CoordinateInput>, 8> kCoordinateInputs{
     {{"uv", CoordinateInput::uv},
      {"half_tangent", CoordinateInput::half_tangent},
      {"light_tangent", CoordinateInput::light_tangent},
      {"view_tangent", CoordinateInput::view_tangent},
+     {"half_coded", CoordinateInput::half_coded},
+     {"light_coded", CoordinateInput::light_coded},
+     {"view_coded", CoordinateInput::view_coded},
      {"vertex", CoordinateInput::vertex}}};
 constexpr std::array<std::pair<std::string_view, BumpSource>, 2> kBumpSources{
     {{"dsdt", BumpSource::dsdt}, {"rgba8", BumpSource::rgba8}}};
-constexpr std::array<std::pair<std::string_view, ColorInput>, 2> kAlphaInputs{
-    {{"vertex", ColorInput::vertex}, {"n_dot_l", ColorInput::n_dot_l}}};
+constexpr std::array<std::pair<std::string_view, ColorInput>, 3> kAlphaInputs{
+    {{"vertex", ColorInput::vertex},
+     {"n_dot_l", ColorInput::n_dot_l},
+     {"h_dot_l", ColorInput::h_dot_l}}};
 constexpr std::array<std::pair<std::string_view, MuxBit>, 2> kMuxBits{
     {{"msb", MuxBit::msb}, {"lsb", MuxBit::lsb}}};
 
 void read_inputs(const Section& material, ProgramMaterial& program) {
     const toml::table* table = material.table("inputs");
     if (table == nullptr) return;
-    const Section section(*table, "[materials.inputs]",
-                          {"col0_rgb", "col0_a", "col1_rgb", "col1_a", "uv0", "uv1", "uv2", "uv3"});
+    const Section section(
+        *table, "[materials.inputs]",
+        {"col0_rgb", "col0_a", "col1_rgb", "col1_a", "half_scale", "uv0", "uv1", "uv2", "uv3"});
     constexpr std::array<std::string_view, 4> kSets{"uv0", "uv1", "uv2", "uv3"};
     for (std::size_t i = 0; i < kSets.size(); ++i) {
         program.uv[i] =
@@ -50,6 +57,7 @@ void read_inputs(const Section& material, ProgramMaterial& program) {
     program.col1_rgb =
         section.choice<ColorInput>("col1_rgb", kRgbInputs).value_or(program.col1_rgb);
     program.col1_a = section.choice<ColorInput>("col1_a", kAlphaInputs).value_or(program.col1_a);
+    program.half_scale = section.vec3("half_scale", kPositive).value_or(program.half_scale);
 }
 
 std::vector<TexturePtr> read_units(const Section& section, const TextureTable& textures) {

@@ -30,7 +30,7 @@ std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
 std::shared_ptr<const SurfaceSampler> surface_of_material(
     const Material& material, const std::optional<Machine>& layer_machine) {
     if (!layer_machine) return exact_surface(material);
-    return layer_surface(material.model, material_layer(material, *layer_machine));
+    return layer_surface(material, material_layer(material, *layer_machine));
 }
 
 DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine) {
@@ -58,6 +58,8 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
                          const std::optional<Machine>& layer_machine) {
     DoubleScene out;
     out.view = make_view(scene.camera, width, height);
+    out.viewer = scene.machine.viewer;
+    out.tangent_frames = scene.machine.tangent_frames;
     out.ambient = glm::dvec3(scene.ambient);
     out.background = glm::dvec4(scene.background);
     for (const Light& light : scene.lights) {

@@ -41,6 +41,8 @@ struct DoubleObject {
 
 struct DoubleScene {
     View view;
+    Viewer viewer = Viewer::local;
+    TangentFrames tangent_frames = TangentFrames::mikktspace;
     std::vector<DoubleLight> lights;
     glm::dvec3 ambient;
     glm::dvec4 background;

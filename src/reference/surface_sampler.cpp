@@ -1,10 +1,7 @@
 #include "reference/surface_sampler.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <burnish/error.hpp>
 #include <string_view>
 
 #include "reference/footprint.hpp"
@@ -110,23 +107,23 @@ class ExactSurface : public SurfaceSampler {
 
 class LayerSurface : public SurfaceSampler {
   public:
-    LayerSurface(Model model, std::span<const LayerQuantity> layer) {
-        for (const std::string_view name : needed(model)) {
+    LayerSurface(const Material& material, std::span<const LayerQuantity> layer) {
+        for (const std::string_view name : needed(material.model)) {
             const auto found = std::find_if(layer.begin(), layer.end(),
                                             [&](const LayerQuantity& q) { return q.name == name; });
-            if (found == layer.end())
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("a material layer without '{}', expected it", name));
             const auto* known =
                 std::find_if(kQuantities.begin(), kQuantities.end(),
                              [&](const NamedQuantity& q) { return q.name == name; });
-            if (found->texture) {
+            if (found == layer.end()) {
+                m_missing.push_back(known->member);
+            } else if (found->texture) {
                 m_textured.push_back({known->member, *found});
             } else {
                 m_constants.*known->member =
                     found->components == 1 ? glm::dvec3(found->constant.x) : found->constant;
             }
         }
+        if (!m_missing.empty()) m_exact = exact_surface(material);
     }
 
     [[nodiscard]] Surface at(const glm::dvec2& uv) const override {
@@ -137,6 +134,9 @@ class LayerSurface : public SurfaceSampler {
                 sample_texture(*quantity.texture, uv, quantity.channel, quantity.components));
             surface.*to = quantity.components == 1 ? glm::dvec3(value.x) : value;
         }
+        if (m_missing.empty()) return surface;
+        const Surface exact = m_exact->at(uv);
+        for (const auto member : m_missing) surface.*member = exact.*member;
         return surface;
     }
 
@@ -147,6 +147,8 @@ class LayerSurface : public SurfaceSampler {
     };
     Surface m_constants;
     std::vector<Textured> m_textured;
+    std::vector<glm::dvec3 Surface::*> m_missing;
+    std::unique_ptr<SurfaceSampler> m_exact;
 };
 
 }  // namespace
@@ -168,8 +170,9 @@ std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {
     return std::make_unique<ExactSurface>(material.model, std::move(source));
 }
 
-std::unique_ptr<SurfaceSampler> layer_surface(Model model, std::span<const LayerQuantity> layer) {
-    return std::make_unique<LayerSurface>(model, layer);
+std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,
+                                              std::span<const LayerQuantity> layer) {
+    return std::make_unique<LayerSurface>(material, layer);
 }
 
 }  // namespace burnish::reference

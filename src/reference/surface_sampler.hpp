@@ -28,8 +28,9 @@ class SurfaceSampler {
 /// of the edge. Throws what TexelSource throws.
 std::unique_ptr<SurfaceSampler> exact_surface(const Material& material);
 
-/// Quantities as they stand in the textures of a machine's layer.
-/// Throws Error{bad_program} if one that `model` needs is missing.
-std::unique_ptr<SurfaceSampler> layer_surface(Model model, std::span<const LayerQuantity> layer);
+/// Quantities as they stand in the textures of a machine's layer; those that it does without are
+/// exact.
+std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,
+                                              std::span<const LayerQuantity> layer);
 
 }  // namespace burnish::reference

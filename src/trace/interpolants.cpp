@@ -18,8 +18,12 @@ std::string name_of(const Varying& v) {
             return "light_tangent";
         case Varying::Source::view_tangent:
             return "view_tangent";
+        case Varying::Source::half_sum:
+            return "half_sum";
         case Varying::Source::n_dot_l:
             return "n_dot_l";
+        case Varying::Source::h_dot_l:
+            return "h_dot_l";
         case Varying::Source::lit:
             return "lit";
         case Varying::Source::normal:
@@ -75,6 +79,7 @@ std::vector<InterpolantPlanes> interpolant_planes(const Shading& shading) {
         add("light_tangent", "xyz", lighting->light_vector);
         add("view_tangent", "xyz", lighting->view_vector);
         add("n_dot_l", "x", lighting->n_dot_l);
+        add("h_dot_l", "x", lighting->h_dot_l);
     }
     return list;
 }

@@ -62,6 +62,7 @@ enum class ColorInput {
     light_tangent,
     view_tangent,
     n_dot_l,  ///< max(0, normal . light), in every component
+    h_dot_l,  ///< max(0, half vector . light), likewise
     lit,      ///< max(0, normal . light) * lit_tint + lit_base, always per vertex
     normal,   ///< the vertex normal in object space, x/2 + 1/2, always per vertex
 };
@@ -72,6 +73,9 @@ enum class CoordinateInput {
     half_tangent,  ///< half vector in the tangent frame, not coded, q = 1
     light_tangent,
     view_tangent,
+    half_coded,  ///< the same vectors x as colours carry them, x/2 + 1/2, q = 1
+    light_coded,
+    view_coded,
     vertex,  ///< the vertex's own of raw vertices; (0, 0, 0, 1) for a mesh
 };
 
@@ -89,6 +93,9 @@ struct ProgramMaterial {
     ColorInput col1_a = ColorInput::vertex;
     glm::vec3 lit_tint{1.0F};
     glm::vec3 lit_base{0.0F};
+    /// What the half vector's components are multiplied by before it becomes a colour or a coded
+    /// coordinate, so that a narrow lobe fills the code's range; a colour stops at -1 and 1.
+    glm::vec3 half_scale{1.0F};
 };
 
 /// What a test lets pass: less is new < old, or tested < reference.
