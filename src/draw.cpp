@@ -217,7 +217,13 @@ void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
     draw.depth = early_rule(draw.shading, draw.output);
     draw.ordered = needs_order(draw.output);
     draw.shown.reset();
-    if (frame.aov) draw.shown = shown_values(*frame.aov, object);
+    if (!frame.aov) return;
+    const double aspect =
+        static_cast<double>(frame.viewport.width) / static_cast<double>(frame.viewport.height);
+    const glm::dmat4 square =
+        glm::dmat4(glm::dmat3(aspect, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0));
+    draw.shown = shown_values(*frame.aov, object, frame.scene->machine.tangent_frames,
+                              square * frame.view.clip_from_world);
 }
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,

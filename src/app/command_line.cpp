@@ -139,17 +139,19 @@ ShownRegister parse_shown_register(const std::string& text) {
 }
 
 Shown parse_aov(const std::string& text) {
-    constexpr std::array<std::pair<std::string_view, Aov>, 5> kAovs{{{"depth", Aov::depth},
+    constexpr std::array<std::pair<std::string_view, Aov>, 7> kAovs{{{"depth", Aov::depth},
                                                                      {"normal", Aov::normal},
                                                                      {"tangent", Aov::tangent},
+                                                                     {"bitangent", Aov::bitangent},
+                                                                     {"stripes", Aov::stripes},
                                                                      {"uv", Aov::uv},
                                                                      {"triangle", Aov::triangle}}};
     if (text.starts_with("register:")) return parse_shown_register(text);
     for (const auto& [name, aov] : kAovs)
         if (text == name) return aov;
     fail(
-        fmt::format("--aov {}, expected depth, normal, tangent, uv, triangle, register:NAME or "
-                    "register:NAME@STAGE",
+        fmt::format("--aov {}, expected depth, normal, tangent, bitangent, stripes, uv, triangle, "
+                    "register:NAME or register:NAME@STAGE",
                     text));
 }
 

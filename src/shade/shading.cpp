@@ -78,6 +78,7 @@ class Planner {
         shading.inputs.clear();
         shading.frame_attributes =
             is_mesh ? kUvAttributes + (m_per_pixel ? kFrameAttributes : 0) : 0;
+        shading.frames_from_uv = machine.tangent_frames == TangentFrames::derivative;
         m_lighting.half_vector = m_lighting.light_vector = m_lighting.view_vector = -1;
         m_lighting.n_dot_l = m_lighting.h_dot_l = -1;
         m_slots = color_slots(material, shading.program);

@@ -66,6 +66,7 @@ struct Shading : LightShading {
     std::span<const VertexFrame> frames;                            ///< of a mesh, else empty
     std::vector<LightInputs> lights = std::vector<LightInputs>(1);  ///< one for each program
     int frame_attributes = 0;           ///< 0, kUvAttributes, or with kFrameAttributes
+    bool frames_from_uv = false;        ///< T and B are the triangle's dP/du and dP/dv
     std::vector<Varying> varying_list;  ///< the attributes after those of the frames
     std::vector<float> varyings;        ///< their values, vertex by vertex
     UnitStates unit_states;

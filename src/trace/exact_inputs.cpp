@@ -28,10 +28,8 @@ ExactInputs::ExactInputs(const Shading& shading, const ScreenMesh& mesh,
     : m_shading(shading),
       m_attributes(kMaxAttributes),
       m_planes(static_cast<std::size_t>(shading.program.plane_count)) {
-    std::array<std::array<float, kMaxInterpolated>, 3> corner;
-    for (std::size_t i = 0; i < 3; ++i) {
-        vertex_attributes(shading, triangle.vertex[i], corner[i].data());
-    }
+    CornerAttributes corner;
+    corner_attributes(shading, triangle, corner);
     const auto count = static_cast<std::size_t>(shading.interpolated());
     const std::array<Barycentrics, 3> places{barycentrics(mesh, triangle, x, y),
                                              barycentrics(mesh, triangle, x + 1, y),
