@@ -132,7 +132,7 @@ struct Fragments {
         Machine machine = machine_profile("nv2a");
         machine.texture_operations = TextureOperations::all;
         problems = check_consistency(*material.texture_shader, material.units, machine);
-        plan_shading(shading, material, machine, false);
+        plan_shading(shading, {&material, 1}, machine, false);
         // 1/w, then coordinates that move a texel or so from pixel to pixel, each another way.
         Random random(5);
         equations.push_back({1.0F, 0.0005F, 0.0003F});

@@ -75,7 +75,7 @@ struct Tile {
         material.col0_a = ColorInput::n_dot_l;
         Machine machine = machine_profile("geforce256");
         machine.texture_units = 3;
-        plan_shading(shading, material, machine, true);
+        plan_shading(shading, {&material, 1}, machine, true);
         const Texture& map = *steel.tangent_map;
         const auto texel = 1.0F / static_cast<float>(map.width());
         Random random(7);

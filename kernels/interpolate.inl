@@ -30,10 +30,20 @@ Vector3 normalised(const Vector3& a) {
     return {a.x * scale, a.y * scale, a.z * scale};
 }
 
+/// Gram and Schmidt, the normal first; the bitangent keeps its side.
+void make_orthonormal(Vector3& t, Vector3& b, Vector3& n) {
+    n = normalised(n);
+    const F32 d = dot(n, t);
+    t = normalised({t.x - n.x * d, t.y - n.y * d, t.z - n.z * d});
+    const Vector3 c{n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
+    const F32 side = ::xsimd::select(dot(c, b) < F32(0.0F), F32(-1.0F), F32(1.0F));
+    b = {c.x * side, c.y * side, c.z * side};
+}
+
 void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
     const Vector3 light{F32(ctx.light[0]), F32(ctx.light[1]), F32(ctx.light[2])};
     const Vector3 eye{F32(ctx.eye[0]), F32(ctx.eye[1]), F32(ctx.eye[2])};
-    const F32 light_w(ctx.light_w), half(0.5F), zero(0.0F);
+    const F32 light_w(ctx.light_w), eye_w(ctx.eye_w), half(0.5F), zero(0.0F);
     float* const planes = packet.attributes;
     const int first = ctx.frame, n = group_count(packet);
     for (int i = 0; i < n; i += kLanes32) {
@@ -41,11 +51,14 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
             const float* p = planes + (first + 3 * k) * kAttributeStride + i;
             return Vector3{load(p), load(p + kAttributeStride), load(p + 2 * kAttributeStride)};
         };
-        const Vector3 t = vector(0), b = vector(1), normal = vector(2), position = vector(3);
+        Vector3 t = vector(0), b = vector(1), normal = vector(2);
+        const Vector3 position = vector(3);
+        if (ctx.orthonormal != 0) make_orthonormal(t, b, normal);
         const Vector3 l =
             normalised({light.x - position.x * light_w, light.y - position.y * light_w,
                         light.z - position.z * light_w});
-        const Vector3 v = normalised({eye.x - position.x, eye.y - position.y, eye.z - position.z});
+        const Vector3 v = normalised(
+            {eye.x - position.x * eye_w, eye.y - position.y * eye_w, eye.z - position.z * eye_w});
         const auto write = [&](int plane, const Vector3& x) {
             if (plane < 0) return;
             float* p = planes + plane * kAttributeStride + i;
@@ -54,7 +67,9 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
             store(p + 2 * kAttributeStride, dot(normal, x) * half + half);
         };
         if (ctx.half_vector >= 0 || ctx.h_dot_l >= 0) {
-            const Vector3 h = normalised({l.x + v.x, l.y + v.y, l.z + v.z});
+            const Vector3 sum{l.x + v.x, l.y + v.y, l.z + v.z};
+            const Vector3 h = ctx.raw_half != 0 ? Vector3{sum.x * half, sum.y * half, sum.z * half}
+                                                : normalised(sum);
             write(ctx.half_vector, h);
             if (ctx.h_dot_l >= 0) {
                 store(planes + ctx.h_dot_l * kAttributeStride + i, max(dot(h, l), zero));

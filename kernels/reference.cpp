@@ -209,6 +209,10 @@ float dot(const Vector& a, const Vector& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
+Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 Vector normalised(const Vector& a) {
     const float scale = 1.0F / std::sqrt(dot(a, a));
     return {a.x * scale, a.y * scale, a.z * scale};
@@ -220,17 +224,29 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
             return {attribute(packet, k)[i], attribute(packet, k + 1)[i],
                     attribute(packet, k + 2)[i]};
         };
-        const Vector tangent = read(ctx.frame);
-        const Vector bitangent = read(ctx.frame + 3);
-        const Vector normal = read(ctx.frame + 6);
+        Vector tangent = read(ctx.frame);
+        Vector bitangent = read(ctx.frame + 3);
+        Vector normal = read(ctx.frame + 6);
+        if (ctx.orthonormal != 0) {
+            normal = normalised(normal);
+            const float along = dot(normal, tangent);
+            tangent = normalised({tangent.x - normal.x * along, tangent.y - normal.y * along,
+                                  tangent.z - normal.z * along});
+            const Vector c = cross(normal, tangent);
+            const bool mirrored = dot(c, bitangent) < 0.0F;
+            bitangent = mirrored ? Vector{-c.x, -c.y, -c.z} : c;
+        }
         const Vector position = read(ctx.frame + 9);
 
         const Vector l = normalised({ctx.light[0] - position.x * ctx.light_w,
                                      ctx.light[1] - position.y * ctx.light_w,
                                      ctx.light[2] - position.z * ctx.light_w});
         const Vector v =
-            normalised({ctx.eye[0] - position.x, ctx.eye[1] - position.y, ctx.eye[2] - position.z});
-        const Vector h = normalised({l.x + v.x, l.y + v.y, l.z + v.z});
+            normalised({ctx.eye[0] - position.x * ctx.eye_w, ctx.eye[1] - position.y * ctx.eye_w,
+                        ctx.eye[2] - position.z * ctx.eye_w});
+        const Vector sum{l.x + v.x, l.y + v.y, l.z + v.z};
+        const Vector h =
+            ctx.raw_half != 0 ? Vector{sum.x * 0.5F, sum.y * 0.5F, sum.z * 0.5F} : normalised(sum);
 
         const auto write = [&](int k, const Vector& x) {
             if (k < 0) return;

@@ -58,16 +58,17 @@ Facing facing_of(Cull cull) {
     return Facing::any;
 }
 
-Light light_of(const Scene& scene) {
-    if (scene.lights.size() > 1) {
-        throw Error(
-            ErrorCode::bad_option,
-            fmt::format("{} lights, expected at most 1: several need several passes, which this "
-                        "version does not have",
-                        scene.lights.size()));
+std::size_t light_count(const Scene& scene) {
+    if (scene.lights.size() > kMaxLights) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("{} lights, expected at most {}", scene.lights.size(), kMaxLights));
     }
+    return std::max(scene.lights.size(), std::size_t{1});
+}
+
+Light light_of(const Scene& scene, std::size_t number) {
     if (scene.lights.empty()) return Light{.intensity = 0.0F};
-    return scene.lights.front();
+    return scene.lights[number];
 }
 
 void transform_mesh(Draw& draw, const FrameView& frame, const Object& object, const Mesh& mesh,
@@ -114,61 +115,92 @@ void transform_raw(Draw& draw, const FrameView& frame, const Object& object,
 }
 
 void prepare_shading(Shading& shading, const FrameView& frame, const Object& object,
-                     const ProgramMaterial& program, const Wanted& wanted) {
+                     std::span<const ProgramMaterial> programs, std::size_t first_light,
+                     const Wanted& wanted) {
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
-    shading.space = light_space(light_of(*frame.scene), frame.view, object.world_from_object);
-    shading.lit = {program.lit_tint, program.lit_base};
-    plan_shading(shading, program, frame.scene->machine, mesh != nullptr, wanted);
+    const Machine& machine = frame.scene->machine;
+    shading.lights.clear();
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        const Light light = light_of(*frame.scene, first_light + i);
+        shading.lights.push_back(
+            {light_space(light, frame.view, machine.viewer, object.world_from_object),
+             {programs[i].lit_tint, programs[i].lit_base},
+             {machine.normalise_half_vector,
+              machine.tangent_frames == TangentFrames::orthonormal}});
+    }
+    shading.half_cube = frame.half_cube;
+    plan_shading(shading, programs, machine, mesh != nullptr, wanted);
     shading.frames = mesh != nullptr ? mesh->frames() : std::span<const VertexFrame>{};
 }
 
 void transform_varyings(Shading& shading, const Object& object, WorkerPool& pool) {
     if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
-        mesh_varyings(mesh->frames(), shading.varying_list, shading.space, shading.lit, pool,
-                      shading.varyings);
+        mesh_varyings(mesh->frames(), shading.varying_list, shading.lights, pool, shading.varyings);
     } else {
         raw_varyings(std::get<RawVertices>(object.geometry).vertices, shading.varying_list,
                      shading.program.numbers, shading.varyings);
     }
 }
 
+/// Whether it brings a program instead of a model.
+bool is_program(const Object& object) {
+    return object.material && object.material->program;
+}
+
+/// One for each light.
+std::vector<ProgramMaterial> programs_of(const Object& object, const Scene& scene,
+                                         DerivedMaps& maps) {
+    std::vector<ProgramMaterial> programs;
+    for (std::size_t light = 0; light < light_count(scene); ++light)
+        programs.push_back(program_of(object, scene, light, maps));
+    return programs;
+}
+
 }  // namespace
 
-ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps) {
-    static const Material kDefault;
-    const Material& material = object.material ? *object.material : kDefault;
-    if (material.program) return *material.program;
+ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t light,
+                           DerivedMaps& maps) {
+    static const auto kDefault = std::make_shared<const Material>();
+    const std::shared_ptr<const Material>& material = object.material ? object.material : kDefault;
+    if (material->program) return *material->program;
     if (!std::holds_alternative<Mesh>(object.geometry)) {
         throw Error(
             ErrorCode::bad_program,
             fmt::format(
                 "material '{}': a reflectance model needs a mesh, raw vertices need a program",
-                material.name));
+                material->name));
     }
-    const Light light = light_of(scene);
-    if (material.model != Model::abp_modified || !material.tangent_map)
-        return maps.models
-            .get(object.material, scene.machine, light.color * light.intensity, scene.ambient)
-            .program;
-    return compile_abp_modified(material, scene.machine, light.color * light.intensity,
-                                scene.ambient, maps);
+    const Light source = light_of(scene, light);
+    const Machine machine = scene.machine.for_programs();
+    const glm::vec3 color = source.color * source.intensity;
+    const glm::vec3 ambient = light == 0 ? scene.ambient : glm::vec3(0.0F);
+    // Maps that were made for the talk's model are its material layer.
+    if (material->model == Model::abp_modified && material->tangent_map)
+        return compile_abp_modified(*material, machine, color, ambient, maps);
+    return maps.models.get(material, machine, color, ambient).program;
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {
-    ProgramMaterial program = program_of(object, *frame.scene, maps);
-    prepare_draw(draw, frame, object, program, {});
+    std::vector<ProgramMaterial> programs = programs_of(object, *frame.scene, maps);
+    prepare_draw(draw, frame, object, programs, 0, {});
+    if (programs.size() > 1 && !draw.shading.reads_light && is_program(object)) {
+        programs.resize(1);
+        prepare_draw(draw, frame, object, programs, 0, {});
+    }
     if (!frame.shown) return;
-    // Tests that follow shading need the whole program first.
+    // Tests that follow shading need the whole program first. A register is the first light's.
     const bool tested = draw.output.late_depth;
-    const Wanted wanted = show_register(program.combiners, *frame.shown, frame.format);
+    programs.resize(1);
+    const Wanted wanted = show_register(programs[0].combiners, *frame.shown, frame.format);
     if (tested) draw.shown.emplace();
-    prepare_shading(tested ? draw.shown->values : draw.shading, frame, object, program, wanted);
+    prepare_shading(tested ? draw.shown->values : draw.shading, frame, object, programs, 0, wanted);
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
-                  const ProgramMaterial& program, const Wanted& wanted) {
+                  std::span<const ProgramMaterial> programs, std::size_t first_light,
+                  const Wanted& wanted) {
     draw.facing = facing_of(object.raster.cull);
-    prepare_shading(draw.shading, frame, object, program, wanted);
+    prepare_shading(draw.shading, frame, object, programs, first_light, wanted);
     plan_fragments(draw, frame, object);
     if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
         draw.indices = mesh->indices();
@@ -189,7 +221,13 @@ void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
     draw.depth = early_rule(draw.shading, draw.output);
     draw.ordered = needs_order(draw.output);
     draw.shown.reset();
-    if (frame.aov) draw.shown = shown_values(*frame.aov, object);
+    if (!frame.aov) return;
+    const double aspect =
+        static_cast<double>(frame.viewport.width) / static_cast<double>(frame.viewport.height);
+    const glm::dmat4 square =
+        glm::dmat4(glm::dmat3(aspect, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0));
+    draw.shown = shown_values(*frame.aov, object, frame.scene->machine.tangent_frames,
+                              square * frame.view.clip_from_world);
 }
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,

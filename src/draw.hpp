@@ -45,18 +45,23 @@ struct FrameView {
     std::optional<ShownRegister> shown = {};
     std::optional<Aov> aov = {};
     PixelFormat format = PixelFormat::rgba8;
+    TexturePtr half_cube = {};  ///< of HalfVectorCube
 };
 
-/// What draws `object`: its program, or its model as a program for the scene's machine.
-/// Throws Error{bad_program} or {bad_option} for what cannot be drawn.
-ProgramMaterial program_of(const Object& object, const Scene& scene, DerivedMaps& maps);
+/// What draws `object` in the light number `light`: its program, or its model as a program for the
+/// scene's machine; the first light's has the ambient light. A scene without lights has one that is
+/// dark. Throws Error{bad_program} or {bad_option} for what cannot be drawn.
+ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t light,
+                           DerivedMaps& maps);
 
-/// Inputs, indices and raster state of `object` under `program`; no vertex is touched yet.
-/// Throws as program_of does.
+/// Inputs, indices and raster state of `object` under `programs`, those of the lights from number
+/// `first_light` on; no vertex is touched yet. Throws as program_of does.
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
-                  const ProgramMaterial& program, const Wanted& wanted);
+                  std::span<const ProgramMaterial> programs, std::size_t first_light,
+                  const Wanted& wanted);
 
-/// The same with the object's own program and what the frame shows of it.
+/// The same with the object's own programs and what the frame shows of it. The sum of all lights
+/// is drawn; a program that no light enters runs once.
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps);
 
 /// Depth test, alpha test and blending, as draw.shading, which is planned, calls for them.

@@ -13,6 +13,7 @@
 #include "machine/show_register.hpp"
 #include "raster/bin.hpp"
 #include "reference/render_double.hpp"
+#include "shade/normalisation_cube.hpp"
 #include "shade/packets.hpp"
 
 namespace burnish {
@@ -94,6 +95,7 @@ struct Renderer::State {
     std::vector<std::unique_ptr<Worker>> workers;
     AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
+    HalfVectorCube half_cube;
 };
 
 Renderer::Renderer(const RendererOptions& options) : m_state(std::make_unique<State>(options)) {}
@@ -171,7 +173,8 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
              make_viewport(scene.machine, size.width, size.height),
              shown,
              aov,
-             target.format()};
+             target.format(),
+             half_cube.of(scene.machine)};
     while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
     draws.resize(scene.objects.size());
     ranges.clear();

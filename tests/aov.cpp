@@ -210,7 +210,8 @@ TEST(AovTest, ShowsTheFragmentsOfThePicture) {
 
 TEST(AovTest, TheSameBitsEverywhere) {
     for (const Scene& scene : {scenes::layers(), scenes::near_plane(), scenes::machine()}) {
-        for (const Aov aov : {Aov::depth, Aov::normal, Aov::tangent, Aov::uv, Aov::triangle}) {
+        for (const Aov aov : {Aov::depth, Aov::normal, Aov::tangent, Aov::bitangent, Aov::stripes,
+                              Aov::uv, Aov::triangle}) {
             for (const PixelFormat format :
                  {PixelFormat::rgba8, PixelFormat::rgba16, PixelFormat::rgba32f}) {
                 Framebuffer want(scene.width, scene.height, format);

@@ -247,7 +247,7 @@ class Measure {
         const Vector b = mix([](const VertexFrame& v) { return bitangent(v); });
         const Vector n = mix([](const VertexFrame& v) { return v.normal; });
         const Vector p = mix([](const VertexFrame& v) { return v.position; });
-        const LightSpace& space = m_draw.shading.space;
+        const LightSpace& space = m_draw.shading.lights[0].space;
         const Vector light{static_cast<double>(space.light.x), static_cast<double>(space.light.y),
                            static_cast<double>(space.light.z)};
         const Vector eye{static_cast<double>(space.eye.x), static_cast<double>(space.eye.y),

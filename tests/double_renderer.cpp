@@ -18,9 +18,11 @@
 #include <string>
 #include <vector>
 
-#include "reference/layer_sampler.hpp"
+#include "reference/footprint.hpp"
 #include "reference/render_double.hpp"
 #include "reference/shade.hpp"
+#include "reference/surface_sampler.hpp"
+#include "reference/tangent_frame.hpp"
 
 namespace burnish {
 namespace {
@@ -72,7 +74,7 @@ Scene sphere_scene(Model model, int width, int height) {
 }
 
 DoubleScene doubled(const Scene& scene) {
-    return reference::double_scene(scene, scene.width, scene.height, scene.machine);
+    return reference::double_scene(scene, scene.width, scene.height);
 }
 
 /// All pixels, row by row, in double precision.
@@ -216,6 +218,7 @@ DoubleScene rotated(DoubleScene scene, const glm::dmat3& rotation, bool vertices
     const glm::dmat4 whole(rotation);
     scene.view.clip_from_world = scene.view.clip_from_world * glm::transpose(whole);
     scene.view.eye = rotation * scene.view.eye;
+    scene.view.back = rotation * scene.view.back;
     for (auto& light : scene.lights) light.position = rotation * light.position;
     for (auto& object : scene.objects) {
         if (!vertices) {
@@ -260,26 +263,19 @@ Scene two_planes(DepthTest test, float second = 0.5F) {
     return scene;
 }
 
-/// Number of the object that shades the pixel in the middle; -1 for the background.
-int object_seen(const Scene& scene) {
-    DoubleScene doubles = doubled(scene);
-    doubles.ambient = glm::dvec3(0.0);
-    const glm::dvec4 background = doubles.background;
-    for (int i = 0; i < static_cast<int>(doubles.objects.size()); ++i) {
-        // All others away: is it still what was seen?
-        DoubleScene lit = doubles;
-        lit.lights = {{{0.0, 0.0, 1.0}, 0.0, glm::dvec3(1.0)}};
-        for (int k = 0; k < static_cast<int>(lit.objects.size()); ++k) {
-            for (auto& quantity : lit.objects[static_cast<std::size_t>(k)].layer) {
-                if (quantity.name == "kd") quantity.constant = glm::dvec3(k == i ? 1.0 : 0.0);
-                if (quantity.name == "ks") quantity.constant = glm::dvec3(0.0);
-            }
-        }
-        const glm::dvec4 color = pixels_of(lit, {8, 8})[36];
-        if (color == background) return -1;
-        if (color.x > 0.5) return i;
+/// Number of the object that shades the pixel in the middle.
+int object_seen(Scene scene) {
+    scene.lights = {{.position = {0.0F, 0.0F, 1.0F}}};
+    scene.background = glm::vec4(0.0F);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        auto material = std::make_shared<Material>(*scene.objects[i].material);
+        material->ks = glm::vec3(0.0F);
+        material->kd = i == 0 ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
+        scene.objects[i].material = material;
     }
-    return -2;
+    const glm::dvec4 color = pixels_of(scene)[36];
+    EXPECT_NEAR(color.x + color.y, 1.0, 1e-12);
+    return color.x > 0.5 ? 0 : 1;
 }
 
 // Object 1 is nearer.
@@ -512,13 +508,41 @@ TEST(DoubleTextureTest, QuantitiesAreDecodedAfterTheFilter) {
     layer[0].components = layer[1].components = layer[2].components = 3;
     layer[1].constant = {0.1, 0.2, 0.3};
     layer[3] = exponent;
-    EXPECT_EQ(reference::LayerSampler(Model::kajiya_kay, layer).at({0.5, 0.0}).N, glm::dvec3(0.0));
+    const std::shared_ptr<Material> material = material_of(Model::kajiya_kay);
+    const auto middle = [&] { return reference::layer_surface(*material, layer)->at({0.5, 0.0}); };
+    EXPECT_EQ(middle().N, glm::dvec3(0.0));
     layer[3].logarithmic = true;
-    const Surface surface = reference::LayerSampler(Model::kajiya_kay, layer).at({0.5, 0.0});
-    EXPECT_EQ(surface.N, glm::dvec3(1.0));
-    EXPECT_EQ(surface.ks, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(middle().N, glm::dvec3(1.0));
+    EXPECT_EQ(middle().ks, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(middle().t, glm::dvec3(0.0));
+    // What the layer does without is the material's own.
     layer.erase(layer.begin());
-    EXPECT_THROW(reference::LayerSampler(Model::kajiya_kay, layer), Error);
+    EXPECT_EQ(middle().t, glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(middle().N, glm::dvec3(1.0));
+}
+
+// alpha_x is 0.2 and 0.8, alpha_y 0.5, N 10 and 30: quantities are filtered, so half-way t /
+// alpha_x is 3.125, which is not 1 / 0.5, and ks / (4 pi alpha_x alpha_y) the mean of 0.7 / (0.4
+// pi) and 0.7 / (1.6 pi).
+TEST(DoubleTextureTest, ExactMaterialsAreQuantitiesOfTheirTexels) {
+    Image8 image(2, 1);
+    for (int c = 0; c < 4; ++c) image.at(1, 0)[c] = 255;
+    const Sampler sampler{.wrap_s = Wrap::clamp_to_border, .border = {0.5F, 0.5F, 0.5F, 0.5F}};
+    const auto map = std::make_shared<Texture>(image, sampler);
+    Material material = *material_of(Model::ward);
+    material.alpha_x_map = {map, 0, 0.2F, 0.8F};
+    material.exponent_map = {map, 3, 10.0F, 30.0F};
+    const auto surface = reference::exact_surface(material);
+    const Surface middle = surface->at({0.5, 0.5});
+    EXPECT_NEAR(middle.X.x, 3.125, 1e-6);
+    EXPECT_NEAR(middle.Y.y, 2.0, 1e-6);
+    EXPECT_NEAR(middle.N.x, 20.0, 1e-6);
+    EXPECT_NEAR(middle.S.z, 0.5 * (0.7 / 0.4 + 0.7 / 1.6) / std::numbers::pi, 1e-6);
+    EXPECT_NEAR(middle.P.x, 0.5, 1e-6);
+    EXPECT_NEAR(middle.U.x, 3.125 * std::numbers::sqrt2, 1e-6);
+    EXPECT_NEAR(surface->at({0.25, 0.5}).X.x, 5.0, 1e-6);
+    EXPECT_NEAR(surface->at({-0.5, 0.5}).X.x, 5.0, 1e-6);  // the border's colour is no parameter
+    EXPECT_NEAR(surface->at({3.0, 0.5}).X.x, 1.25, 1e-6);
 }
 
 // ---- shading
@@ -531,28 +555,8 @@ struct Parameters {
     glm::dvec3 ks, kd;
 
     [[nodiscard]] Surface surface(Model model) const {
-        const double area = std::numbers::pi * alpha.x * alpha.y;
-        Surface s;
-        s.n = frame.n;
-        s.t = frame.t;
-        const bool round = model == Model::blinn_phong;
-        s.X = round ? frame.t : frame.t / alpha.x;
-        s.Y = round ? frame.b : frame.b / alpha.y;
-        s.U = frame.t * std::sqrt(exponents().u);
-        s.V = frame.b * std::sqrt(exponents().v);
-        s.P = frame.t * alpha.x;
-        s.Q = frame.b * alpha.y;
-        s.ks = ks;
-        s.kd = kd;
-        s.N = glm::dvec3(exponent);
-        s.S = ks / (4.0 * area);
-        const double height = model == Model::ggx
-                                  ? 1.0 / (2.0 * area)
-                                  : std::sqrt((exponents().u + 1.0) * (exponents().v + 1.0)) /
-                                        (8.0 * std::numbers::pi);
-        s.A = ks * height;
-        s.C = (1.0 - ks) * height;
-        return s;
+        return reference::surface_of(
+            model, {frame.n, frame.t, frame.b, alpha.x, alpha.y, exponent, kd, ks});
     }
     [[nodiscard]] reflectance::PhongExponents exponents() const {
         return {2.0 / (alpha.x * alpha.x), 2.0 / (alpha.y * alpha.y)};
@@ -736,6 +740,80 @@ TEST(DoubleShadingTest, AFarLightIsADirection) {
     EXPECT_LT(root_mean_square(pixels_of(scene), direction), 1e-6);
     scene.lights[0].position *= 2e-7F;
     EXPECT_GT(root_mean_square(pixels_of(scene), direction), 1e-3);
+}
+
+/// A triangle whose vertices' axes are short and askew. u runs along y, v upward along -2 x.
+struct SkewTriangle {
+    std::array<reference::DoubleVertex, 3> v;
+
+    SkewTriangle() {
+        for (auto& vertex : v) {
+            vertex.tangent = {0.4, 0.3, 0.0};
+            vertex.bitangent = {-0.3, 0.4, 0.1};
+            vertex.normal = {0.0, 0.3, 0.4};
+        }
+        v[0].position = {0.0, 0.0, 0.0};
+        v[1].position = {0.0, 1.0, 0.0};
+        v[2].position = {2.0, 0.0, 0.0};
+        v[0].uv = {0.0, 1.0};
+        v[1].uv = {1.0, 1.0};
+        v[2].uv = {0.0, 2.0};
+    }
+    [[nodiscard]] reference::TangentFrame frame(TangentFrames kind) const {
+        return reference::tangent_frame({{&v[0], &v[1], &v[2]}, {0.5, 0.25, 0.25}}, kind);
+    }
+};
+
+// n = (0, 0.6, 0.8); t = (0.4, 0.3, 0) less n times its 0.18: (0.4, 0.192, -0.144), length
+// sqrt(0.2176).
+TEST(DoubleShadingTest, FramesAreInterpolatedOrMadeOrthonormal) {
+    SkewTriangle triangle;
+    const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
+        EXPECT_LT(largest({a - b, 0.0}), 1e-15) << a.x << " " << a.y << " " << a.z;
+    };
+    const reference::TangentFrame plain = triangle.frame(TangentFrames::mikktspace);
+    near(plain.t, {0.4, 0.3, 0.0});
+    near(plain.b, {-0.3, 0.4, 0.1});
+    near(plain.n, {0.0, 0.3, 0.4});
+    const reference::TangentFrame straight = triangle.frame(TangentFrames::orthonormal);
+    const glm::dvec3 t = glm::dvec3(0.4, 0.192, -0.144) / std::sqrt(0.2176);
+    near(straight.n, {0.0, 0.6, 0.8});
+    near(straight.t, t);
+    near(straight.b, glm::cross(straight.n, t));
+    // Mirrored uv: the bitangent keeps its side.
+    for (auto& vertex : triangle.v) vertex.bitangent *= -1.0;
+    near(triangle.frame(TangentFrames::orthonormal).b, -straight.b);
+}
+
+// dP/du = (0, 1, 0), perpendicular to n: (0, 0.64, -0.48) / 0.8. dP/dv = (-2, 0, 0), and n x t is
+// (-1, 0, 0).
+TEST(DoubleShadingTest, FramesFromUvFollowTheTriangle) {
+    SkewTriangle triangle;
+    const reference::TangentFrame frame = triangle.frame(TangentFrames::derivative);
+    EXPECT_LT(largest({frame.t - glm::dvec3(0.0, 0.8, -0.6), 0.0}), 1e-15);
+    EXPECT_LT(largest({frame.b - glm::dvec3(-1.0, 0.0, 0.0), 0.0}), 1e-15);
+    triangle.v[2].uv = {0.0, 0.0};  // v downward along x
+    EXPECT_LT(
+        largest({triangle.frame(TangentFrames::derivative).b - glm::dvec3(1.0, 0.0, 0.0), 0.0}),
+        1e-15);
+    triangle.v[2].uv = {2.0, 1.0};  // on a line
+    EXPECT_EQ(triangle.frame(TangentFrames::derivative).t,
+              triangle.frame(TangentFrames::orthonormal).t);
+}
+
+TEST(DoubleShadingTest, AViewerFarAwayIsADirection) {
+    Scene scene = sphere_scene(Model::abp, 24, 24);
+    scene.camera.position = {0.0F, 0.0F, 3000.0F};
+    scene.camera.near = 2900.0F;
+    scene.camera.far = 3100.0F;
+    scene.camera.view_angle = 0.05F;
+    const auto local = pixels_of(scene);
+    scene.machine.viewer = Viewer::infinite;
+    EXPECT_LT(root_mean_square(pixels_of(scene), local), 1e-3);
+    scene.camera = {};
+    const auto infinite = pixels_of(scene);
+    scene.machine.viewer = Viewer::local;
+    EXPECT_GT(root_mean_square(pixels_of(scene), infinite), 1e-2);
 }
 
 // Uniform scaling and where an object's axes lie are the business of its matrix alone.

@@ -98,6 +98,9 @@ TEST_P(KernelTest, LightingOfRandomFrames) {
             ctx.eye[i] = random.real(-10.0F, 10.0F);
         }
         ctx.light_w = random.chance(2) ? 1.0F : 0.0F;
+        ctx.eye_w = random.chance(3) ? 0.0F : 1.0F;
+        ctx.raw_half = random.chance(3) ? 1 : 0;
+        ctx.orthonormal = random.chance(2) ? 1 : 0;
         ctx.half_vector = random.chance(3) ? -1 : 17;
         ctx.light_vector = random.chance(3) ? -1 : 20;
         ctx.view_vector = random.chance(3) ? -1 : 23;

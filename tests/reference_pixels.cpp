@@ -228,6 +228,25 @@ TEST_P(ReferencePixels, LightingInTheFrameOfTheSurface) {
     EXPECT_EQ(packet.attribute(18)[0], 0.0F);
 }
 
+// Normal 3 long, tangent with a part along it, bitangent on the side that mirrored uv have.
+TEST_P(ReferencePixels, LightingInAnOrthonormalFrame) {
+    PacketMemory packet;
+    packet.count = 1;
+    const std::array<float, 12> frame{4, 3, 7, 0, -5, 1, 0, 0, 3, 0, 0, 0};
+    for (int k = 0; k < 12; ++k) packet.attribute(k)[0] = frame[static_cast<std::size_t>(k)];
+    // T = (0.8, 0.6, 0), N x T = (-0.6, 0.8, 0), B = (0.6, -0.8, 0). The viewer, not a place:
+    // (0, 0, 1); light (1, 0, 0); half their sum is (1/2, 0, 1/2).
+    LightingCtx ctx{0, {2, 0, 0}, 0.0F, {0, 0, 9}, 12, 15, 18, 21, 22};
+    ctx.eye_w = 0.0F;
+    ctx.raw_half = ctx.orthonormal = 1;
+    Packet view = packet.view();
+    table().lighting(view, ctx);
+    const std::array<float, 11> want{0.7F, 0.65F, 0.75F, 0.9F, 0.8F, 0.5F,
+                                     0.5F, 0.5F,  1.0F,  0.0F, 0.5F};
+    for (int k = 0; k < 11; ++k)
+        EXPECT_NEAR(packet.attribute(12 + k)[0], want[static_cast<std::size_t>(k)], 1e-6F) << k;
+}
+
 struct Addressed {
     std::int32_t texel;
     int weight;

@@ -201,7 +201,6 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
     const std::vector<std::string> texts{"[machine]\nfilter_order = \"after\"\n",
-                                         "[machine]\nhalf_vector = \"cube:64\"\n",
                                          texture + "mipmaps = \"toksvig\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
@@ -216,7 +215,7 @@ TEST_F(SceneFiles, ProfileDoubleTakesTheKeysOfMachines) {
     EXPECT_TRUE(machine.double_precision);
     EXPECT_EQ(machine.name, "double");
     EXPECT_SAYS(bad("[machine]\nprofile = \"double\"\nhalf_vector = \"vertex\"\n"),
-                "expected \"pixel\" with profile double");
+                "half vectors of profile double");
 }
 
 TEST_F(SceneFiles, DefaultValuesOfSuchKeysAreAccepted) {

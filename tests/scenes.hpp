@@ -298,14 +298,60 @@ inline Scene layers() {
     return scene;
 }
 
+/// Squares of the half vector's components over a map in n.l: what every light and every axis of
+/// the frame have a part in.
+inline std::shared_ptr<Material> half_vector_colors() {
+    using namespace combine;
+    ProgramBuilder p;
+    p.stage()
+        .rgb()
+        .ab(mul(in(tex(0)), alpha(in(Register::col0))))
+        .cd(mul(expand(Register::col0), expand(Register::col0)))
+        .sum(Register::spare0)
+        .scale(Scale::half);
+    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::spare0), raw(Register::zero));
+    p.out_alpha(alpha(one()));
+    auto material = painted({200, 150, 110, 255});
+    material->program->combiners = p.build();
+    return material;
+}
+
+/// A knot of few sides with mirrored uv on its far half and a ball, in a directional and a point
+/// light; frames orthonormal at the pixel.
+inline Scene two_lights() {
+    Scene scene = lit_scene(machine_profile("ideal"), 240, 160);
+    scene.machine.tangent_frames = TangentFrames::orthonormal;
+    scene.camera.position = {0.3F, 0.6F, 3.4F};
+    scene.lights.push_back(
+        {.position = {1.4F, -0.3F, 1.1F}, .position_w = 1.0F, .color = {0.7F, 0.8F, 1.0F}});
+    MeshData knot = shapes::torus_knot(60, 7);
+    for (std::size_t i = knot.uvs.size() / 2; i < knot.uvs.size(); ++i) {
+        knot.uvs[i].x = -knot.uvs[i].x;
+        knot.tangents[i] = -knot.tangents[i];
+    }
+    const auto material = half_vector_colors();
+    const glm::vec3 y(0.0F, 1.0F, 0.0F);
+    scene.objects.push_back(
+        {Mesh(knot), material, placement({-0.6F, 0.0F, 0.0F}, y, 15.0F, 0.8F), {}});
+    scene.objects.push_back({Mesh(shapes::sphere(14, 8)),
+                             material,
+                             placement({1.0F, 0.1F, 0.0F}, y, -30.0F, 0.7F),
+                             {}});
+    return scene;
+}
+
 struct NamedScene {
     std::string name;
     Scene (*make)();
 };
 inline const std::vector<NamedScene>& all() {
-    static const std::vector<NamedScene> list{{"knot", knot},       {"ellipsoid", ellipsoid},
-                                              {"million", million}, {"near_plane", near_plane},
-                                              {"machine", machine}, {"layers", layers}};
+    static const std::vector<NamedScene> list{{"knot", knot},
+                                              {"ellipsoid", ellipsoid},
+                                              {"million", million},
+                                              {"near_plane", near_plane},
+                                              {"machine", machine},
+                                              {"layers", layers},
+                                              {"two_lights", two_lights}};
     return list;
 }
 

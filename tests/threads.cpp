@@ -117,7 +117,7 @@ TEST(Threads, RenderersDoNotDisturbEachOther) {
 TEST(Threads, ARefusedSceneLeavesTheRendererUsable) {
     const std::vector<Scene> scenes = small_scenes();
     Scene bad = scenes[0];
-    bad.lights.resize(2);
+    bad.lights.resize(9);  // one more than there may be
     Renderer renderer({.threads = 4});
     Framebuffer want(kWidth, kHeight), frame(kWidth, kHeight);
     Renderer({.threads = 1}).render(scenes[0], want);

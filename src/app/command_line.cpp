@@ -140,17 +140,19 @@ ShownRegister parse_shown_register(const std::string& text) {
 }
 
 Shown parse_aov(const std::string& text) {
-    constexpr std::array<std::pair<std::string_view, Aov>, 5> kAovs{{{"depth", Aov::depth},
+    constexpr std::array<std::pair<std::string_view, Aov>, 7> kAovs{{{"depth", Aov::depth},
                                                                      {"normal", Aov::normal},
                                                                      {"tangent", Aov::tangent},
+                                                                     {"bitangent", Aov::bitangent},
+                                                                     {"stripes", Aov::stripes},
                                                                      {"uv", Aov::uv},
                                                                      {"triangle", Aov::triangle}}};
     if (text.starts_with("register:")) return parse_shown_register(text);
     for (const auto& [name, aov] : kAovs)
         if (text == name) return aov;
     fail(
-        fmt::format("--aov {}, expected depth, normal, tangent, uv, triangle, register:NAME or "
-                    "register:NAME@STAGE",
+        fmt::format("--aov {}, expected depth, normal, tangent, bitangent, stripes, uv, triangle, "
+                    "register:NAME or register:NAME@STAGE",
                     text));
 }
 
@@ -230,18 +232,23 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
     verb.add_option_function<std::string>(
             "--half-vector",
             [&picture](const std::string& word) {
-                picture.half_vector =
-                    known_word("--half-vector", word, {"pixel", "vertex"}) == "pixel"
-                        ? HalfVector::pixel
-                        : HalfVector::vertex;
+                Machine tried;
+                choose_half_vector(tried, word);
+                picture.half_vector = word;
             },
-            "Where half vectors are computed: pixel or vertex")
+            "Where half vectors are computed: pixel, vertex, or cube:N, per vertex and normalised "
+            "by "
+            "a cube map of N texels a side")
         ->type_name("WHERE");
     add_camera_options(verb, picture.camera);
-    verb.add_option_function<std::string>(
+    verb.add_option_function<std::vector<std::string>>(
             "--light",
-            [&picture](const std::string& text) { picture.lights = {parse_light(text)}; },
-            "The only light: direction towards it, or its position if W is 1")
+            [&picture](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) picture.lights.push_back(parse_light(text));
+            },
+            "A light, instead of the scene's: direction towards it, or its position if W is 1; may "
+            "be given several times")
+        ->allow_extra_args(false)
         ->type_name("X,Y,Z[,W]");
     verb.add_option_function<std::string>(
             "--background",

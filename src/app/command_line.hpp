@@ -30,7 +30,7 @@ struct PictureOptions {
     std::filesystem::path material;  ///< instead of the meshes' own, if not empty
     std::optional<Model> model;      ///< instead of the materials' own
     bool multipass = false;
-    std::optional<HalfVector> half_vector;
+    std::optional<std::string> half_vector;  ///< of choose_half_vector
     CameraOptions camera;
     std::vector<Light> lights;  ///< instead of the scene's, if not empty
     std::optional<glm::vec4> background;

@@ -129,7 +129,7 @@ Scene load_picture(const PictureOptions& options) {
         scene.machine = machine_profile(*options.machine);
     replace_materials(options, scene);
     if (options.multipass) scene.machine.multipass = true;
-    if (options.half_vector) scene.machine.half_vector = *options.half_vector;
+    if (options.half_vector) choose_half_vector(scene.machine, *options.half_vector);
     if (options.size) {
         scene.width = options.size->x;
         scene.height = options.size->y;

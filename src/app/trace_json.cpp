@@ -109,16 +109,30 @@ std::string blend_json(const TracedBlend& b) {
         json_list(b.destination), json_list(b.destination_factor), json_list(b.result));
 }
 
+/// Members of an object, without braces: a light's part in a fragment and what came of it.
+std::string light_members(const TracedFragment& f, const std::array<int, 4>& codes,
+                          const std::array<TracedNumber, 4>& color) {
+    return fmt::format(
+        "\"interpolants\": {}, \"units\": {}, \"fetches\": {}, \"stages\": {}, \"codes\": {}, {}",
+        json_list(f.interpolants, interpolant_json), json_list(f.units, unit_json),
+        json_list(f.fetches, fetch_json), json_list(f.stages, stage_json), json_list(codes),
+        json_members(color));
+}
+
 std::string fragment_json(const TracedFragment& f) {
     return fmt::format(
         "{{\"object\": {}, \"material\": {}, \"triangle\": {}, \"clipped\": {}, \"vertices\": {}, "
-        "\"barycentrics\": {}, \"depth\": {}, \"one_over_w\": {}, \"interpolants\": {}, "
-        "\"units\": {}, \"fetches\": {}, \"stages\": {}, \"codes\": {}, {}, \"blend\": {}}}",
+        "\"barycentrics\": {}, \"depth\": {}, \"one_over_w\": {}, {}, \"light_codes\": {}, "
+        "\"further_lights\": {}, \"blend\": {}}}",
         f.object, json_string(f.material), f.triangle, f.clipped, json_list(f.vertices),
         json_list(f.barycentrics), json(f.depth), json(f.one_over_w),
-        json_list(f.interpolants, interpolant_json), json_list(f.units, unit_json),
-        json_list(f.fetches, fetch_json), json_list(f.stages, stage_json), json_list(f.codes),
-        json_members(f.color), f.blend ? blend_json(*f.blend) : "null");
+        light_members(f, f.codes, f.color), json_list(f.light_codes),
+        json_list(f.further_lights,
+                  [](const TracedFragment& light) {
+                      return fmt::format(
+                          "{{{}}}", light_members(light, light.light_codes, light.light_color));
+                  }),
+        f.blend ? blend_json(*f.blend) : "null");
 }
 
 }  // namespace

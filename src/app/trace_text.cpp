@@ -169,14 +169,29 @@ std::string blend_text(const TracedBlend& b, PixelFormat format) {
     return text + fmt::format("  {:<20}{}\n", "result", channels(b.result));
 }
 
-std::string fragment_text(const TracedFragment& f, const TableWriter& table, PixelFormat format) {
-    std::string text =
-        triangle_text(f) + "\n" + interpolant_text("interpolants", f.interpolants) + "\n";
+/// What one light gives the fragment.
+std::string light_text(const TracedFragment& f, const TableWriter& table) {
+    std::string text = interpolant_text("interpolants", f.interpolants) + "\n";
     for (const TracedUnit& unit : f.units) text += unit_text(unit);
     if (!f.units.empty()) text += "\n";
     for (const TracedFetch& fetch : f.fetches) text += fetch_text(fetch, table) + "\n";
     for (const TracedStage& stage : f.stages) text += table.stage(stage) + "\n";
-    text += table.heading("result") + table.row("  color", f.codes, f.color, kAll);
+    return text + table.heading("result") +
+           table.row("  color", f.light_codes, f.light_color, kAll);
+}
+
+std::string fragment_text(const TracedFragment& f, const TableWriter& table, PixelFormat format) {
+    const std::size_t lights = f.further_lights.size() + 1;
+    const auto heading = [&](std::size_t number) {
+        return lights > 1 ? fmt::format("light {} of {}\n", number, lights) : std::string();
+    };
+    std::string text = fmt::format("{}\n{}{}", triangle_text(f), heading(1), light_text(f, table));
+    for (std::size_t i = 0; i < f.further_lights.size(); ++i)
+        text += fmt::format("\n{}{}", heading(i + 2), light_text(f.further_lights[i], table));
+    if (lights > 1) {
+        text += fmt::format("\n{}{}", table.heading("all lights"),
+                            table.row("  color", f.codes, f.color, kAll));
+    }
     if (f.blend) text += fmt::format("\n{}", blend_text(*f.blend, format));
     return text;
 }

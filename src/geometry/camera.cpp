@@ -73,7 +73,8 @@ View make_view(const Camera& camera, int width, int height) {
     const glm::dmat4 projection = camera.projection
                                       ? glm::dmat4(*camera.projection)
                                       : perspective(camera, static_cast<double>(width) / height);
-    return {projection * view, glm::dvec3(inverse_of(view, "camera view matrix")[3])};
+    const glm::dmat4 world_from_eye = inverse_of(view, "camera view matrix");
+    return {projection * view, glm::dvec3(world_from_eye[3]), glm::dvec3(world_from_eye[2])};
 }
 
 Viewport make_viewport(const Machine& machine, int width, int height) {
@@ -86,13 +87,17 @@ Viewport make_viewport(const Machine& machine, int width, int height) {
             machine.snap_floor ? 0.0F : 0.5F};
 }
 
-LightSpace light_space(const Light& light, const View& view, const glm::mat4& world_from_object) {
+LightSpace light_space(const Light& light, const View& view, Viewer viewer,
+                       const glm::mat4& world_from_object) {
     const glm::dmat4 object_from_world = inverse_of(glm::dmat4(world_from_object), "object matrix");
     LightSpace space;
     space.light_w = light.position_w == 0.0F ? 0.0F : 1.0F;
     const glm::dvec4 position(glm::dvec3(light.position), static_cast<double>(space.light_w));
     space.light = glm::vec3(object_from_world * position);
-    space.eye = glm::vec3(object_from_world * glm::dvec4(view.eye, 1.0));
+    const bool local = viewer == Viewer::local;
+    space.eye_w = local ? 1.0F : 0.0F;
+    space.eye = glm::vec3(object_from_world *
+                          (local ? glm::dvec4(view.eye, 1.0) : glm::dvec4(view.back, 0.0)));
     return space;
 }
 

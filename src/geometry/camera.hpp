@@ -11,7 +11,8 @@ namespace burnish {
 /// A camera at one resolution.
 struct View {
     glm::dmat4 clip_from_world;
-    glm::dvec3 eye;  ///< world space
+    glm::dvec3 eye;   ///< world space
+    glm::dvec3 back;  ///< from what it looks at towards it, world space
 };
 
 /// Throws Error{bad_option} for a camera that sees nothing: equal position and focal point, an up
@@ -21,7 +22,9 @@ View make_view(const Camera& camera, int width, int height);
 /// Pixels of a frame on the machine's vertex grid.
 Viewport make_viewport(const Machine& machine, int width, int height);
 
-/// Light and eye in the space of an object. Throws Error{bad_option} if its matrix has no inverse.
-LightSpace light_space(const Light& light, const View& view, const glm::mat4& world_from_object);
+/// Light and viewer in the space of an object. Throws Error{bad_option} if its matrix has no
+/// inverse.
+LightSpace light_space(const Light& light, const View& view, Viewer viewer,
+                       const glm::mat4& world_from_object);
 
 }  // namespace burnish

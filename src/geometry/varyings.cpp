@@ -11,6 +11,10 @@ float dot(const glm::vec3& a, const glm::vec3& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
+glm::vec3 cross(const glm::vec3& a, const glm::vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 /// Zero stays zero.
 glm::vec3 normalised(const glm::vec3& v) {
     const float length = std::sqrt(dot(v, v));
@@ -21,34 +25,50 @@ glm::vec3 normalised(const glm::vec3& v) {
 struct LitVertex {
     glm::vec3 normal{};                 // object space, x/2 + 1/2
     glm::vec3 half{}, light{}, view{};  // in the tangent frame, likewise
+    glm::vec3 half_sum{};               // in the tangent frame
     float n_dot_l = 0.0F, h_dot_l = 0.0F;
 };
 
-/// Which of its vectors a list of varyings names.
+/// Which vectors of one light a list of varyings names.
 struct WantedVectors {
-    explicit WantedVectors(std::span<const Varying> list)
-        : half(names(list, Varying::Source::half_tangent) || names(list, Varying::Source::h_dot_l)),
-          light(names(list, Varying::Source::light_tangent)),
-          view(names(list, Varying::Source::view_tangent)) {}
-    static bool names(std::span<const Varying> list, Varying::Source source) {
-        return std::any_of(list.begin(), list.end(),
-                           [&](const Varying& v) { return v.source == source; });
+    WantedVectors(std::span<const Varying> list, int of_light) {
+        for (const Varying& v : list) {
+            if (v.light != of_light) continue;
+            any = true;
+            half |= v.source == Varying::Source::half_tangent ||
+                    v.source == Varying::Source::half_sum || v.source == Varying::Source::h_dot_l;
+            light |= v.source == Varying::Source::light_tangent;
+            view |= v.source == Varying::Source::view_tangent;
+        }
     }
-    bool half, light, view;
+    bool any = false, half = false, light = false, view = false;
 };
 
-LitVertex light_vertex(const VertexFrame& v, const LightSpace& space, const WantedVectors& wanted) {
-    const glm::vec3 t(v.tangent), b = bitangent(v);
-    const auto coded = [&](const glm::vec3& x) {
-        return glm::vec3(dot(t, x), dot(b, x), dot(v.normal, x)) * 0.5F + 0.5F;
-    };
+/// The frame of a vertex as the machine takes it.
+struct Frame {
+    Frame(const VertexFrame& v, bool orthonormal) : t(v.tangent), b(bitangent(v)), n(v.normal) {
+        if (orthonormal) make_orthonormal(t, b, n);
+    }
+    [[nodiscard]] glm::vec3 in_frame(const glm::vec3& x) const {
+        return {dot(t, x), dot(b, x), dot(n, x)};
+    }
+    glm::vec3 t, b, n;
+};
+
+LitVertex light_vertex(const VertexFrame& v, const LightInputs& inputs,
+                       const WantedVectors& wanted) {
+    const LightSpace& space = inputs.space;
+    const Frame frame(v, inputs.rules.orthonormal);
+    const auto coded = [&](const glm::vec3& x) { return frame.in_frame(x) * 0.5F + 0.5F; };
     const glm::vec3 l = normalised(space.light - v.position * space.light_w);
-    LitVertex lit{.normal = v.normal * 0.5F + 0.5F, .n_dot_l = std::max(dot(v.normal, l), 0.0F)};
+    LitVertex lit{.normal = v.normal * 0.5F + 0.5F, .n_dot_l = std::max(dot(frame.n, l), 0.0F)};
     if (wanted.light) lit.light = coded(l);
     if (!wanted.half && !wanted.view) return lit;
-    const glm::vec3 view = normalised(space.eye - v.position);
+    const glm::vec3 view = normalised(space.eye - v.position * space.eye_w);
     if (wanted.half) {
-        const glm::vec3 half = normalised(l + view);
+        const glm::vec3 sum = l + view;
+        const glm::vec3 half = inputs.rules.normalise_half ? normalised(sum) : sum * 0.5F;
+        lit.half_sum = frame.in_frame(sum * 0.5F);
         lit.half = coded(half);
         lit.h_dot_l = std::max(dot(half, l), 0.0F);
     }
@@ -64,6 +84,8 @@ float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit)
             return v.light[varying.index];
         case Varying::Source::view_tangent:
             return v.view[varying.index];
+        case Varying::Source::half_sum:
+            return v.half_sum[varying.index];
         case Varying::Source::n_dot_l:
             return v.n_dot_l;
         case Varying::Source::h_dot_l:
@@ -102,25 +124,36 @@ float value_of(const RawVertex& v, const Varying& varying, NumberModel numbers) 
 
 }  // namespace
 
+void make_orthonormal(glm::vec3& t, glm::vec3& b, glm::vec3& n) {
+    n = normalised(n);
+    t = normalised(t - n * dot(n, t));
+    const glm::vec3 c = cross(n, t);
+    b = dot(c, b) < 0.0F ? -c : c;
+}
+
 glm::vec3 bitangent(const VertexFrame& v) {
-    const glm::vec3 t(v.tangent), &n = v.normal;
-    return glm::vec3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) *
-           v.tangent.w;
+    return cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
 }
 
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   const LightSpace& space, const LitColors& lit, WorkerPool& pool,
-                   std::vector<float>& out) {
+                   std::span<const LightInputs> lights, WorkerPool& pool, std::vector<float>& out) {
     constexpr std::size_t kBatch = 1024;
     out.resize(vertices.size() * list.size());
     if (list.empty()) return;
-    const WantedVectors wanted(list);
     for_each_index(pool, (vertices.size() + kBatch - 1) / kBatch, 1, [&](std::size_t batch, int) {
         const std::size_t last = std::min(vertices.size(), (batch + 1) * kBatch);
-        for (std::size_t i = batch * kBatch; i < last; ++i) {
-            const LitVertex v = light_vertex(vertices[i], space, wanted);
-            float* to = out.data() + i * list.size();
-            for (const Varying& varying : list) *to++ = value_of(v, varying, lit);
+        for (int light = 0; light < static_cast<int>(lights.size()); ++light) {
+            const WantedVectors wanted(list, light);
+            if (!wanted.any) continue;
+            const LightInputs& inputs = lights[static_cast<std::size_t>(light)];
+            for (std::size_t i = batch * kBatch; i < last; ++i) {
+                const LitVertex v = light_vertex(vertices[i], inputs, wanted);
+                float* to = out.data() + i * list.size();
+                for (const Varying& varying : list) {
+                    if (varying.light == light) *to = value_of(v, varying, inputs.lit);
+                    ++to;
+                }
+            }
         }
     });
 }

@@ -16,6 +16,13 @@ struct LightSpace {
     glm::vec3 light{0.0F, 0.0F, 1.0F};  ///< position, or the direction towards the light
     float light_w = 0.0F;               ///< 1: position, 0: direction
     glm::vec3 eye{0.0F};
+    float eye_w = 1.0F;  ///< 1: position, 0: direction towards the viewer
+};
+
+/// Which vectors a machine makes of them.
+struct VectorRules {
+    bool normalise_half = true;  ///< else (l + v) / 2
+    bool orthonormal = false;    ///< frames of vertices are made so, as LightingCtx has it
 };
 
 /// One float that a vertex hands to the interpolators.
@@ -27,13 +34,16 @@ struct Varying {
         half_tangent,  ///< component `index` of the half vector in the tangent frame, x/2 + 1/2
         light_tangent,
         view_tangent,
-        n_dot_l,  ///< max(0, normal . light)
-        h_dot_l,  ///< max(0, half vector . light)
-        lit,      ///< n_dot_l * tint + base
-        normal,   ///< component `index`, object space, x/2 + 1/2
+        half_sum,  ///< component `index` of (l + v) / 2 in the tangent frame, neither unit nor
+                   ///< coded
+        n_dot_l,   ///< max(0, normal . light)
+        h_dot_l,   ///< max(0, half vector . light)
+        lit,       ///< n_dot_l * tint + base
+        normal,    ///< component `index`, object space, x/2 + 1/2
     };
     Source source;
     int index;
+    int light = 0;  ///< whose it is; 0 for what no light changes
     friend bool operator==(const Varying&, const Varying&) = default;
 };
 
@@ -42,14 +52,23 @@ struct LitColors {
     glm::vec3 tint{1.0F}, base{0.0F};
 };
 
+/// What vertices and pixels need to know of a light.
+struct LightInputs {
+    LightSpace space;
+    LitColors lit;
+    VectorRules rules = {};
+};
+
 /// Values of `list` for every vertex, vertex by vertex. Vectors are unit length at the vertex.
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   const LightSpace& space, const LitColors& lit, WorkerPool& pool,
-                   std::vector<float>& out);
+                   std::span<const LightInputs> lights, WorkerPool& pool, std::vector<float>& out);
 /// Colours are clamped to [0, 1]; nine-bit machines drop what lies below
 /// 2^-22.
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
                   NumberModel numbers, std::vector<float>& out);
+
+/// The frame made orthonormal as LightingCtx has it; vectors without length stay so.
+void make_orthonormal(glm::vec3& t, glm::vec3& b, glm::vec3& n);
 
 /// bitangent = w * cross(normal, tangent.xyz)
 glm::vec3 bitangent(const VertexFrame& v);

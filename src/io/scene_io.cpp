@@ -21,8 +21,12 @@ constexpr std::array<std::pair<std::string_view, PixelFormat>, 3> kFormats{
      {"rgba32f", PixelFormat::rgba32f}}};
 constexpr std::array<std::pair<std::string_view, NumberModel>, 2> kNumbers{
     {{"nine_bit", NumberModel::nine_bit}, {"wide", NumberModel::wide}}};
-constexpr std::array<std::pair<std::string_view, HalfVector>, 2> kHalfVectors{
-    {{"vertex", HalfVector::vertex}, {"pixel", HalfVector::pixel}}};
+constexpr std::array<std::pair<std::string_view, Viewer>, 2> kViewers{
+    {{"local", Viewer::local}, {"infinite", Viewer::infinite}}};
+constexpr std::array<std::pair<std::string_view, TangentFrames>, 3> kTangentFrames{
+    {{"mikktspace", TangentFrames::mikktspace},
+     {"orthonormal", TangentFrames::orthonormal},
+     {"derivative", TangentFrames::derivative}}};
 constexpr std::array<std::pair<std::string_view, ProductRounding>, 3> kProductRoundings{
     {{"nearest", ProductRounding::nearest},
      {"truncate", ProductRounding::truncate},
@@ -54,16 +58,33 @@ Machine read_profile(const Section& section) {
     return machine_profile(name);
 }
 
+/// How the vectors of light come about.
+void read_vectors(const Section& section, Machine& machine) {
+    if (const std::optional<std::string> word = section.text("half_vector")) {
+        try {
+            choose_half_vector(machine, *word);
+        } catch (const Error& error) {
+            section.fail("half_vector", std::string(error.what()) + ", in [machine]");
+        }
+    }
+    machine.half_vector_bits =
+        section.integer("half_vector_bits", 8, 16).value_or(machine.half_vector_bits);
+    machine.normalise_half_vector =
+        section.boolean("normalise_half_vector").value_or(machine.normalise_half_vector);
+    machine.viewer = section.choice<Viewer>("viewer", kViewers).value_or(machine.viewer);
+    machine.tangent_frames = section.choice<TangentFrames>("tangent_frames", kTangentFrames)
+                                 .value_or(machine.tangent_frames);
+}
+
 void read_machine(const toml::table& table, Scene& scene) {
     const Section section(
         table, "[machine]",
         {"profile", "filter_order", "texture_units", "general_stages", "stage_constants", "numbers",
          "product_rounding", "expand", "halving", "lerp_rounding", "magnitude_factor", "multipass",
-         "subpixel_bits", "snap", "half_vector"});
+         "subpixel_bits", "snap", "half_vector", "half_vector_bits", "normalise_half_vector",
+         "viewer", "tangent_frames"});
     Machine machine = read_profile(section);
     section.accept_only("filter_order", "before");
-    if (section.text("half_vector").value_or("").starts_with("cube:"))
-        section.refuse({"half_vector"});
     machine.texture_units = section.integer("texture_units", 1, 16).value_or(machine.texture_units);
     machine.general_stages =
         section.integer("general_stages", 0, 16).value_or(machine.general_stages);
@@ -80,16 +101,14 @@ void read_machine(const toml::table& table, Scene& scene) {
         section.choice<MagnitudeFactor>("magnitude_factor", kMagnitudeFactors)
             .value_or(machine.magnitude_factor);
     machine.multipass = section.boolean("multipass").value_or(machine.multipass);
-    machine.half_vector =
-        section.choice<HalfVector>("half_vector", kHalfVectors).value_or(machine.half_vector);
-    if (machine.double_precision && machine.half_vector == HalfVector::vertex)
-        section.fail(
-            "half_vector",
-            "'half_vector' = \"vertex\" in [machine], expected \"pixel\" with profile double, "
-            "which computes everything at every sample");
+    read_vectors(section, machine);
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);
     machine.snap_floor = section.choice<bool>("snap", kSnaps).value_or(machine.snap_floor);
-    machine.validate();
+    try {
+        machine.validate();
+    } catch (const Error& error) {
+        section.fail("profile", std::string(error.what()) + ", in [machine]");
+    }
     scene.machine = std::move(machine);
 }
 

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/machine.hpp>
+#include <charconv>
 
 #include "core/nearest.hpp"
 
 namespace burnish {
 namespace {
+
+constexpr int kLargestCube = 1024;  // texels a side of a normalisation cube map
 
 /// The NV2A's choices: 1/16 pixel grid by floor and half vectors at the vertices.
 Machine nv2a() {
@@ -50,16 +54,76 @@ void check_range(const char* field, int value, int low, int high) {
                 fmt::format("{} = {}, expected {} .. {}", field, value, low, high));
 }
 
+void check_half_vector(const Machine& machine) {
+    check_range("half_vector_size", machine.half_vector_size, 1, kLargestCube);
+    const int bits = machine.half_vector_bits;
+    if (bits != 8 && bits != 9 && bits != 16) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("half_vector_bits = {}, expected 8, 9 or 16", bits));
+    }
+    const bool cube = machine.half_vector == HalfVector::cube;
+    if (!cube && bits != 8) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("half_vector_bits = {} without half_vector = cube:N", bits));
+    }
+    if (bits != 8 && machine.numbers == NumberModel::nine_bit) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("half_vector_bits = {} with numbers = nine_bit, expected 8: a "
+                                "colour has no more there",
+                                bits));
+    }
+    if (cube && machine.texture_units < 2) {
+        throw Error(
+            ErrorCode::bad_option,
+            "half_vector = cube:N takes a texture unit, expected texture_units = 2 or more");
+    }
+    if (cube && !machine.normalise_half_vector) {
+        throw Error(
+            ErrorCode::bad_option,
+            "normalise_half_vector = false with half_vector = cube:N, whose map normalises");
+    }
+    if (machine.tangent_frames == TangentFrames::derivative &&
+        machine.half_vector != HalfVector::pixel) {
+        throw Error(ErrorCode::bad_option,
+                    "tangent_frames = derivative, which differ from triangle to triangle, expected "
+                    "half_vector = pixel");
+    }
+}
+
 }  // namespace
+
+void choose_half_vector(Machine& machine, std::string_view word) {
+    constexpr std::string_view kCube = "cube:";
+    if (word == "pixel") {
+        machine.half_vector = HalfVector::pixel;
+    } else if (word == "vertex") {
+        machine.half_vector = HalfVector::vertex;
+    } else {
+        int size = 0;
+        const char* const end = word.data() + word.size();
+        const char* const digits = word.data() + std::min(kCube.size(), word.size());
+        const auto [stop, failure] = std::from_chars(digits, end, size);
+        if (!word.starts_with(kCube) || failure != std::errc() || stop != end || size < 1 ||
+            size > kLargestCube) {
+            throw Error(ErrorCode::bad_option,
+                        fmt::format("half_vector '{}', expected pixel, vertex or cube:N with N = 1 "
+                                    ".. {}",
+                                    word, kLargestCube));
+        }
+        machine.half_vector = HalfVector::cube;
+        machine.half_vector_size = size;
+    }
+}
 
 void Machine::validate() const {
     check_range("texture_units", texture_units, 1, 16);
     check_range("general_stages", general_stages, 0, 16);
     check_range("subpixel_bits", subpixel_bits, 4, 8);
-    if (double_precision && half_vector == HalfVector::vertex) {
+    check_half_vector(*this);
+    if (double_precision && half_vector != HalfVector::pixel) {
         throw Error(ErrorCode::bad_option,
-                    "half_vector = vertex with profile double, which computes everything at every "
-                    "sample; expected pixel");
+                    "half vectors of profile double are computed at every sample, expected "
+                    "half_vector = pixel");
     }
     if (numbers == NumberModel::nine_bit || double_precision) return;
     const auto check_default = [](const char* field, bool is_default) {
@@ -74,6 +138,12 @@ void Machine::validate() const {
     check_default("expand", expand == ExpandRule::hardware);
     check_default("halving", halving == Halving::half_up);
     check_default("lerp_rounding", lerp_rounding == LerpRounding::once);
+}
+
+Machine Machine::for_programs() const {
+    Machine rest = *this;
+    if (half_vector == HalfVector::cube) --rest.texture_units;
+    return rest;
 }
 
 std::vector<std::string_view> machine_profile_names() {

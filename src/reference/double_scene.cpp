@@ -27,7 +27,13 @@ std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
     return vertices;
 }
 
-DoubleObject double_object(const Object& object, const Machine& layer_machine) {
+std::shared_ptr<const SurfaceSampler> surface_of_material(
+    const Material& material, const std::optional<Machine>& layer_machine) {
+    if (!layer_machine) return exact_surface(material);
+    return layer_surface(material, material_layer(material, *layer_machine));
+}
+
+DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine) {
     static const Material kDefault;
     const Material& material = object.material ? *object.material : kDefault;
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
@@ -40,7 +46,7 @@ DoubleObject double_object(const Object& object, const Machine& layer_machine) {
             {mesh->indices().begin(), mesh->indices().end()},
             glm::dmat4(object.world_from_object),
             material.model,
-            material_layer(material, layer_machine),
+            surface_of_material(material, layer_machine),
             object.raster.depth_test,
             object.raster.depth_write,
             object.raster.cull};
@@ -48,9 +54,12 @@ DoubleObject double_object(const Object& object, const Machine& layer_machine) {
 
 }  // namespace
 
-DoubleScene double_scene(const Scene& scene, int width, int height, const Machine& layer_machine) {
+DoubleScene double_scene(const Scene& scene, int width, int height,
+                         const std::optional<Machine>& layer_machine) {
     DoubleScene out;
     out.view = make_view(scene.camera, width, height);
+    out.viewer = scene.machine.viewer;
+    out.tangent_frames = scene.machine.tangent_frames;
     out.ambient = glm::dvec3(scene.ambient);
     out.background = glm::dvec4(scene.background);
     for (const Light& light : scene.lights) {

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "reference/shade.hpp"
+#include "reference/tangent_frame.hpp"
 
 namespace burnish {
 namespace reference {
@@ -28,25 +29,21 @@ double milliseconds_since(Clock::time_point start) {
 constexpr int kTile = 16;
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 
-/// Zero stays zero.
-glm::dvec3 normalised(const glm::dvec3& x) {
-    const double length = std::sqrt(glm::dot(x, x));
-    return length > 0.0 ? x / length : x;
-}
-
 /// An object's surface under the scene's lights, all in its own space.
 class ObjectShader {
   public:
     ObjectShader(const DoubleScene& scene, const DoubleObject& object)
         : m_object(object),
           m_ambient(scene.ambient),
-          m_layer(object.model, object.layer),
+          m_tangent_frames(scene.tangent_frames),
+          m_eye_w(scene.viewer == Viewer::local ? 1.0 : 0.0),
           m_lights(scene.lights) {
         const double determinant = glm::determinant(object.world_from_object);
         if (determinant == 0.0 || !std::isfinite(determinant))
             throw Error(ErrorCode::bad_option, "object matrix has no inverse");
         const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
-        m_eye = glm::dvec3(object_from_world * glm::dvec4(scene.view.eye, 1.0));
+        m_eye = glm::dvec3(object_from_world *
+                           glm::dvec4(m_eye_w == 1.0 ? scene.view.eye : scene.view.back, m_eye_w));
         for (DoubleLight& light : m_lights) {
             light.position =
                 glm::dvec3(object_from_world * glm::dvec4(light.position, light.position_w));
@@ -55,27 +52,20 @@ class ObjectShader {
 
     /// `weight` of the three corners of triangle `number`.
     [[nodiscard]] glm::dvec3 color(std::uint32_t number, const glm::dvec3& weight) const {
-        const DoubleVertex* corner[3];
+        SurfacePoint point{{}, weight};
         for (std::size_t i = 0; i < 3; ++i)
-            corner[i] = &m_object.vertices[m_object.indices[std::size_t{3} * number + i]];
-        const auto mean = [&](auto DoubleVertex::*of) {
-            return corner[0]->*of * weight.x + corner[1]->*of * weight.y +
-                   corner[2]->*of * weight.z;
-        };
-        const glm::dvec3 t = mean(&DoubleVertex::tangent), b = mean(&DoubleVertex::bitangent),
-                         n = mean(&DoubleVertex::normal);
-        const glm::dvec3 position = mean(&DoubleVertex::position);
-        const Surface surface = m_layer.at(mean(&DoubleVertex::uv));
-        const auto in_frame = [&](const glm::dvec3& x) {
-            return glm::dvec3(glm::dot(t, x), glm::dot(b, x), glm::dot(n, x));
-        };
-        const glm::dvec3 v = normalised(m_eye - position);
+            point.corner[i] = &m_object.vertices[m_object.indices[std::size_t{3} * number + i]];
+        const TangentFrame frame = tangent_frame(point, m_tangent_frames);
+        const glm::dvec3 position = point.mean(&DoubleVertex::position);
+        const Surface surface = m_object.surface->at(point.mean(&DoubleVertex::uv));
+        const glm::dvec3 v = normalised(m_eye - position * m_eye_w);
         glm::dvec3 sum = m_ambient;
         for (const DoubleLight& light : m_lights) {
             const glm::dvec3 l = normalised(light.position - position * light.position_w);
             const glm::dvec3 h = normalised(l + v);
-            sum += light.color * reflected(m_object.model, surface,
-                                           {in_frame(l), in_frame(v), in_frame(h), glm::dot(h, l)});
+            const Directions to{frame.components(l), frame.components(v), frame.components(h),
+                                glm::dot(h, l)};
+            sum += light.color * reflected(m_object.model, surface, to);
         }
         return sum;
     }
@@ -84,8 +74,10 @@ class ObjectShader {
 
   private:
     const DoubleObject& m_object;
-    glm::dvec3 m_ambient, m_eye{};
-    LayerSampler m_layer;
+    glm::dvec3 m_ambient;
+    TangentFrames m_tangent_frames;
+    double m_eye_w;      ///< 0: m_eye is a direction
+    glm::dvec3 m_eye{};  ///< object space
     std::vector<DoubleLight> m_lights;
 };
 
@@ -303,9 +295,8 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
     const reference::FrameSize size{target.width(), target.height()};
     try {
         return reference::render(
-            reference::double_scene(scene, size.width, size.height,
-                                    options.layer_machine.value_or(scene.machine)),
-            size, pattern, pool, [&](int x, int y, const glm::dvec4& color) {
+            reference::double_scene(scene, size.width, size.height, options.layer_machine), size,
+            pattern, pool, [&](int x, int y, const glm::dvec4& color) {
                 store(color, target.format(),
                       target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
             });

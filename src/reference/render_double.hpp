@@ -17,8 +17,7 @@ namespace burnish {
 struct DoubleOptions {
     int samples = 1;         ///< per pixel: a square up to kMaxDoubleSamples; 1: the centre
     std::uint32_t seed = 1;  ///< of where samples lie, if there are several
-    /// Whose texels are looked up; nothing: those of the scene's own machine, which are the finest
-    /// ones if that is profile double.
+    /// Whose material layer is looked up, coded as in its textures; nothing: materials are exact.
     std::optional<Machine> layer_machine = {};
 };
 inline constexpr int kMaxDoubleSamples = 1024;

@@ -3,7 +3,7 @@
 #include <burnish/scene.hpp>
 #include <glm/glm.hpp>
 
-#include "reference/layer_sampler.hpp"
+#include "reference/surface.hpp"
 
 namespace burnish::reference {
 

@@ -45,7 +45,43 @@ CornerRows corner_rows(const ScreenMesh& mesh, const SetupTriangle& t) {
     return rows;
 }
 
+/// dP/du and dP/dv of a triangle, unit length; false where u and v do not tell them apart.
+bool surface_derivatives(const VertexFrame& a, const VertexFrame& b, const VertexFrame& c,
+                         glm::vec3& along_u, glm::vec3& along_v) {
+    const glm::dvec3 e = glm::dvec3(b.position) - glm::dvec3(a.position),
+                     f = glm::dvec3(c.position) - glm::dvec3(a.position);
+    const glm::dvec2 p = glm::dvec2(b.uv) - glm::dvec2(a.uv),
+                     q = glm::dvec2(c.uv) - glm::dvec2(a.uv);
+    const double area = p.x * q.y - q.x * p.y;
+    const double side = area < 0.0 ? -1.0 : 1.0;
+    const glm::dvec3 u = (e * q.y - f * p.y) * side, v = (f * p.x - e * q.x) * side;
+    const double u_length = std::sqrt(glm::dot(u, u)), v_length = std::sqrt(glm::dot(v, v));
+    if (area == 0.0 || !(u_length > 0.0) || !(v_length > 0.0)) return false;
+    if (!std::isfinite(u_length) || !std::isfinite(v_length)) return false;
+    along_u = glm::vec3(u / u_length);
+    along_v = glm::vec3(v / v_length);
+    return true;
+}
+
 }  // namespace
+
+void corner_attributes(const Shading& shading, const SetupTriangle& triangle,
+                       CornerAttributes& out) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        vertex_attributes(shading, triangle.vertex[i], out[i].data());
+    }
+    const bool frames = shading.frame_attributes > kUvAttributes;
+    if (!shading.frames_from_uv || !frames) return;
+    glm::vec3 u, v;
+    const auto frame = [&](std::size_t i) { return shading.frames[triangle.vertex[i]]; };
+    if (!surface_derivatives(frame(0), frame(1), frame(2), u, v)) return;
+    for (auto& corner : out) {
+        for (int c = 0; c < 3; ++c) {
+            corner[static_cast<std::size_t>(kUvAttributes + c)] = u[c];
+            corner[static_cast<std::size_t>(kUvAttributes + 3 + c)] = v[c];
+        }
+    }
+}
 
 Barycentrics barycentrics(const ScreenMesh& mesh, const SetupTriangle& triangle, std::int32_t x,
                           std::int32_t y) {
@@ -61,10 +97,8 @@ Barycentrics barycentrics(const ScreenMesh& mesh, const SetupTriangle& triangle,
 
 void attribute_planes(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                       AttributePlane* out) {
-    std::array<std::array<float, kMaxInterpolated>, 3> values;
-    for (std::size_t i = 0; i < 3; ++i) {
-        vertex_attributes(shading, triangle.vertex[i], values[i].data());
-    }
+    CornerAttributes values;
+    corner_attributes(shading, triangle, values);
     CornerRows rows = corner_rows(mesh, triangle);
     std::array<Vector, 3>& b = rows.row;
     const auto count = static_cast<std::size_t>(shading.interpolated());

@@ -116,10 +116,10 @@ void test_fragments(const Shading& shading, const FragmentOutput& output,
                     const OutputTile& tile, std::uint16_t* stored, Packet& packet) {
     if (output.alpha_test) {
         const DepthRule pass = comparison_rule(output.alpha_test->pass, false);
-        const BoundProgram& program = shading.program;
-        kernels.alpha_test(packet, {program.result[3],
-                                    reference_code(output.alpha_test->reference, program.numbers),
-                                    pass.pass_less, pass.pass_equal, pass.pass_greater, stored});
+        const NumberModel numbers = shading.program.numbers;
+        kernels.alpha_test(
+            packet, {shading.result[3], reference_code(output.alpha_test->reference, numbers),
+                     pass.pass_less, pass.pass_equal, pass.pass_greater, stored});
     }
     if (shading.keep_attribute >= 0) kernels.keep(packet, {shading.keep_attribute, stored});
     if (output.late_depth) {

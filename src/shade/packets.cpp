@@ -170,8 +170,7 @@ void PacketShader::shade_colors(const Shading& shading, const KernelTable& kerne
 void PacketShader::write_colors(const Shading& shading, const std::optional<Blend>& blend,
                                 const KernelTable& kernels) {
     if (m_copied) m_packet.pixels = m_stored.data();
-    write_pixels(shading.program.result, shading.program.numbers, blend, kernels, m_tile.output,
-                 m_packet);
+    write_pixels(shading.result, shading.program.numbers, blend, kernels, m_tile.output, m_packet);
 }
 
 /// The triangles are interpolated once more, for the values.

@@ -58,7 +58,7 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
     std::visit(FeedInput{kernels, runs, packet, numbers == NumberModel::nine_bit}, op);
 }
 
-void run_program(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
+void run_program(const LightShading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                  Packet& packet) {
     const BoundProgram& program = shading.program;
     std::size_t done = 0;
@@ -88,17 +88,34 @@ void run_pass(const EarlierPass& pass, const KernelTable& kernels, const Attribu
     }
 }
 
+/// Constant planes are in place unless another program ran before.
+void run_light(const LightShading& light, bool constants_in_place, const KernelTable& kernels,
+               const AttributesCtx& runs, Packet& packet) {
+    for (const EarlierPass& pass : light.earlier_passes) run_pass(pass, kernels, runs, packet);
+    if (!constants_in_place || !light.earlier_passes.empty()) load_constants(light.program, packet);
+    for (const InputOp& op : light.inputs) {
+        feed_input(op, light.program.numbers, kernels, runs, packet);
+    }
+    run_program(light, kernels, runs, packet);
+}
+
 }  // namespace
 
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                   Packet& packet) {
     kernels.attributes(packet, runs);
-    for (const EarlierPass& pass : shading.earlier_passes) run_pass(pass, kernels, runs, packet);
-    if (!shading.earlier_passes.empty()) load_constants(shading.program, packet);
-    for (const InputOp& op : shading.inputs) {
-        feed_input(op, shading.program.numbers, kernels, runs, packet);
+    if (shading.further_lights.empty()) {
+        return run_light(shading, true, kernels, runs, packet);
     }
-    run_program(shading, kernels, runs, packet);
+    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
+    const auto add = nine_bit ? kernels.portion_nine_bit : kernels.portion_wide;
+    std::fill_n(packet.planes + shading.zero_plane * kPacketSize, kPacketSize, std::int16_t{0});
+    for (const FurtherLight& light : shading.further_lights) {
+        run_light(light, false, kernels, runs, packet);
+        add(packet, light.add);
+    }
+    run_light(shading, false, kernels, runs, packet);
+    add(packet, shading.add_first);
 }
 
 }  // namespace burnish

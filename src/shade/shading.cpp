@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "shade/normalisation_cube.hpp"
+
 namespace burnish {
 
 namespace {
@@ -63,30 +65,32 @@ class Planner {
   public:
     /// @param units  of a pass: what they are in the whole material
     Planner(Shading& shading, const ProgramMaterial& material, const Machine& machine, bool is_mesh,
-            std::span<const PassUnit> units)
+            int light, std::span<const PassUnit> units)
         : m_shading(shading),
           m_material(material),
           m_units(units),
           m_machine(machine),
           m_is_mesh(is_mesh),
+          m_light(light),
           m_per_pixel(machine.half_vector == HalfVector::pixel),
           m_sampling{shading.program.numbers, kSampleScratch, shading.program.plane_count},
           m_free{kUnitAttributes, shading.program.plane_count + kSamplePlanes} {
         shading.inputs.clear();
         shading.frame_attributes =
             is_mesh ? kUvAttributes + (m_per_pixel ? kFrameAttributes : 0) : 0;
+        shading.frames_from_uv = machine.tangent_frames == TangentFrames::derivative;
         m_lighting.half_vector = m_lighting.light_vector = m_lighting.view_vector = -1;
         m_lighting.n_dot_l = m_lighting.h_dot_l = -1;
         m_slots = color_slots(material, shading.program);
     }
 
-    void plan(const LightSpace& space) {
+    void plan() {
         for (const ColorSlot& slot : m_slots) {
             if (!m_is_mesh && slot.input != ColorInput::vertex) {
                 throw Error(ErrorCode::bad_program,
                             "raw vertices carry no normals: their colours can only be 'vertex'");
             }
-            if (varies_per_vertex(slot)) varying({source_of(slot), index_of(slot)});
+            if (varies_per_vertex(slot)) plane_of(slot);
         }
         plan_textures();  // adds the coordinates of raw vertices
         std::vector<InputOp> encodings;
@@ -98,8 +102,9 @@ class Planner {
                 encodings.emplace_back(EncodeCtx{attribute, slot.plane});
             }
         }
-        plan_lighting(space);
+        plan_lighting(m_shading.lights[static_cast<std::size_t>(m_light)].space);
         std::vector<InputOp>& inputs = m_shading.inputs;
+        inputs.insert(inputs.end(), m_cube_ops.begin(), m_cube_ops.end());
         inputs.insert(inputs.end(), m_vector_ops.begin(), m_vector_ops.end());
         inputs.insert(inputs.end(), encodings.begin(), encodings.end());
         for (PlannedUnit& unit : m_shading.units) unit.first_op += inputs.size();
@@ -114,6 +119,10 @@ class Planner {
     /// One number for every component.
     [[nodiscard]] static bool is_cosine(ColorInput input) {
         return input == ColorInput::n_dot_l || input == ColorInput::h_dot_l;
+    }
+    [[nodiscard]] static bool depends_on_light(ColorInput input) {
+        return is_cosine(input) || input == ColorInput::half_tangent ||
+               input == ColorInput::light_tangent || input == ColorInput::lit;
     }
     [[nodiscard]] static int index_of(const ColorSlot& slot) {
         return is_cosine(slot.input) ? 0 : slot.component;
@@ -145,8 +154,37 @@ class Planner {
     }
     /// Attribute plane of what a vertex or the lighting stage delivers.
     int plane_of(const ColorSlot& slot) {
-        if (varies_per_vertex(slot)) return varying({source_of(slot), index_of(slot)});
+        if (depends_on_light(slot.input)) m_shading.reads_light = true;
+        if (slot.input == ColorInput::half_tangent && m_machine.half_vector == HalfVector::cube) {
+            return cube_plane() + slot.component;
+        }
+        if (varies_per_vertex(slot)) {
+            const int light = depends_on_light(slot.input) ? m_light : 0;
+            return varying({source_of(slot), index_of(slot), light});
+        }
         return lighting_plane(slot.input) + index_of(slot);
+    }
+
+    /// First attribute plane of the half vector that the cube map normalises, coded.
+    int cube_plane() {
+        if (m_cube_plane >= 0) return m_cube_plane;
+        const auto sum = [&](int c) { return varying({Varying::Source::half_sum, c, m_light}); };
+        const SampleCoordinates at{sum(0), sum(1), sum(2), -1, true};
+        if (!m_shading.half_cube) {
+            m_shading.half_cube =
+                normalisation_cube(m_machine.half_vector_size, m_machine.half_vector_bits);
+        }
+        m_shading.textures.push_back(m_shading.half_cube);
+        const int texel = m_free.reg;
+        m_free.reg += 4;
+        m_cube_plane = m_free.attribute;
+        m_free.attribute += 3;
+        SamplePlan sampling{m_sampling.numbers, m_sampling.attributes, m_sampling.planes};
+        plan_sample(*m_shading.half_cube, at, {texel, -1}, sampling, m_cube_ops);
+        for (int c = 0; c < 3; ++c)
+            m_cube_ops.emplace_back(
+                DecodeCtx{texel + c, m_cube_plane + c, Reading::unsigned_texel});
+        return m_cube_plane;
     }
 
     /// First attribute plane of what the lighting stage delivers, which is asked for by this.
@@ -172,6 +210,9 @@ class Planner {
             m_lighting.eye[i] = space.eye[i];
         }
         m_lighting.light_w = space.light_w;
+        m_lighting.eye_w = space.eye_w;
+        m_lighting.raw_half = m_machine.normalise_half_vector ? 0 : 1;
+        m_lighting.orthonormal = m_machine.tangent_frames == TangentFrames::mikktspace ? 0 : 1;
         const bool used = m_lighting.half_vector >= 0 || m_lighting.light_vector >= 0 ||
                           m_lighting.view_vector >= 0 || m_lighting.n_dot_l >= 0 ||
                           m_lighting.h_dot_l >= 0;
@@ -278,18 +319,22 @@ class Planner {
     const ProgramMaterial& m_material;
     std::span<const PassUnit> m_units;
     const Machine& m_machine;
-    bool m_is_mesh, m_per_pixel;
+    bool m_is_mesh;
+    int m_light;  ///< of the shading's
+    bool m_per_pixel;
     SamplePlan m_sampling;
     FreePlanes m_free;
     std::vector<ColorSlot> m_slots;
     std::vector<VectorComponent> m_vectors;
-    std::vector<InputOp> m_vector_ops, m_texture_ops;
+    std::vector<InputOp> m_cube_ops, m_vector_ops, m_texture_ops;
+    int m_cube_plane = -1;
     LightingCtx m_lighting{};
 };
 
 /// Binds and plans one pass. Attributes that earlier passes asked for keep their places.
 void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-               bool is_mesh, const Wanted& wanted, std::span<const PassUnit> units = {}) {
+               bool is_mesh, int light, const Wanted& wanted,
+               std::span<const PassUnit> units = {}) {
     shading.unit_states = unit_states(material, machine);
     for (std::size_t i = 0; i < units.size(); ++i) {
         const std::uint32_t bit = 1U << i;
@@ -298,7 +343,7 @@ void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine&
         shading.unit_states.black &= ~bit;
     }
     shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
-    Planner(shading, material, machine, is_mesh, units).plan(shading.space);
+    Planner(shading, material, machine, is_mesh, light, units).plan();
 }
 
 bool has_room_for(const Machine& machine, const ProgramMaterial& material) {
@@ -354,13 +399,14 @@ void add_frames(const ProgramPass& pass, int first_frame, const BoundProgram& pr
 }
 
 void plan_passes(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                 bool is_mesh) {
+                 bool is_mesh, int light) {
     const std::vector<ProgramPass> passes = split_into_passes(
         material.combiners, machine, unit_texels(material), material.texture_shader.has_value());
     int first_frame = 0;  // behind the planes of all passes
     bool quads = false;
     for (const ProgramPass& pass : passes) {
-        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, {}, pass.units);
+        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, light, {},
+                  pass.units);
         first_frame = std::max(first_frame, shading.program.plane_count);
         quads |= shading.quads;
         if (&pass == &passes.back()) break;
@@ -376,25 +422,90 @@ void plan_passes(Shading& shading, const ProgramMaterial& material, const Machin
     shading.program.plane_count = first_frame + 4 * static_cast<int>(shading.earlier_passes.size());
 }
 
-}  // namespace
-
-void plan_shading(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                  bool is_mesh, const Wanted& wanted) {
-    shading.textures = material.units;
-    shading.varying_list.clear();
+/// Passes and inputs of one light. Attributes that other lights asked for keep their places.
+void plan_light(Shading& shading, const ProgramMaterial& material, const Machine& machine,
+                bool is_mesh, int light, const Wanted& wanted) {
+    shading.textures.insert(shading.textures.end(), material.units.begin(), material.units.end());
     shading.earlier_passes.clear();
     if (machine.multipass && !has_room_for(machine, material)) {
         // Registers between the passes are those of the whole program.
         const bool inside = wanted.everything || wanted.reg;
-        if (!inside) return plan_passes(shading, material, machine, is_mesh);
-        return plan_pass(shading, material, with_room(machine), is_mesh, wanted);
+        if (!inside) return plan_passes(shading, material, machine, is_mesh, light);
+        return plan_pass(shading, material, with_room(machine), is_mesh, light, wanted);
     }
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
+        const bool cube = machine.half_vector == HalfVector::cube;
         throw Error(ErrorCode::bad_program,
-                    fmt::format("{} texture units, machine '{}' has {}", material.units.size(),
-                                machine.name, machine.texture_units));
+                    fmt::format("{} texture units, machine '{}' has {}{}", material.units.size(),
+                                machine.name, machine.texture_units,
+                                cube ? " besides the one that normalises half vectors" : ""));
     }
-    plan_pass(shading, material, machine, is_mesh, wanted);
+    plan_pass(shading, material, machine, is_mesh, light, wanted);
+}
+
+/// sum = a + b, at most 1: products with 1 are exact in both number models.
+PortionCtx sum_of(const std::array<std::int16_t, 4>& a, const std::array<std::int16_t, 3>& b,
+                  const std::array<std::int16_t, 3>& sum, std::int16_t zero, std::int16_t trash) {
+    const auto mapping = [](Mapping m) { return static_cast<std::uint8_t>(m); };
+    PortionCtx add{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        add.a.plane[c] = a[c];
+        add.c.plane[c] = b[c];
+        add.b.plane[c] = add.d.plane[c] = zero;
+        add.ab_out[c] = add.cd_out[c] = trash;
+        add.third_out[c] = sum[c];
+    }
+    add.a.mapping = add.c.mapping = mapping(Mapping::signed_identity);
+    add.b.mapping = add.d.mapping = mapping(Mapping::unsigned_invert);  // of 0: 1
+    add.ab = add.cd = ProductKind::multiply;
+    add.third = ThirdKind::sum;
+    add.scale = OutputScale::one;
+    add.rounding = Rounding::nearest;
+    add.components = 3;
+    return add;
+}
+
+/// Sums of lights in planes behind those of all programs; no portion reads what it writes.
+void plan_sums(Shading& shading) {
+    int planes = shading.program.plane_count;
+    for (const FurtherLight& light : shading.further_lights)
+        planes = std::max(planes, light.program.plane_count);
+    const auto next = [&] { return static_cast<std::int16_t>(planes++); };
+    const std::int16_t zero = next(), trash = next();
+    std::array<std::int16_t, 3> sum{zero, zero, zero}, free{next(), next(), next()},
+        other{next(), next(), next()};
+    const auto add = [&](const LightShading& light) {
+        const PortionCtx ctx = sum_of(light.program.result, sum, free, zero, trash);
+        sum = free;
+        std::swap(free, other);
+        return ctx;
+    };
+    for (FurtherLight& light : shading.further_lights) light.add = add(light);
+    shading.add_first = add(shading);
+    shading.zero_plane = zero;
+    std::copy(sum.begin(), sum.end(), shading.result.begin());
+    shading.program.plane_count = planes;
+}
+
+}  // namespace
+
+void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
+                  const Machine& whole_machine, bool is_mesh, const Wanted& wanted) {
+    const Machine machine = whole_machine.for_programs();
+    shading.textures.clear();
+    shading.varying_list.clear();
+    shading.further_lights.clear();
+    shading.reads_light = false;
+    bool quads = false;
+    for (std::size_t i = 1; i < programs.size(); ++i) {
+        plan_light(shading, programs[i], machine, is_mesh, static_cast<int>(i), wanted);
+        quads |= shading.quads;
+        shading.further_lights.push_back({std::move(static_cast<LightShading&>(shading)), {}});
+    }
+    plan_light(shading, programs.front(), machine, is_mesh, 0, wanted);
+    shading.quads |= quads;
+    shading.result = shading.program.result;
+    if (programs.size() > 1) plan_sums(shading);
 }
 
 void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out) {

@@ -46,7 +46,8 @@ class ValueReader {
   public:
     ValueReader(const ShownValues& shown, const Packet& packet, const float* own_depths,
                 bool floats)
-        : m_aov(*shown.aov),
+        : m_shown(shown),
+          m_aov(*shown.aov),
           m_count(shown.values.interpolated()),
           m_packet(packet),
           m_own_depths(own_depths),
@@ -59,8 +60,12 @@ class ValueReader {
                 return {z, z, z, 1.0F};
             }
             case Aov::normal:
+                return normal(i);
             case Aov::tangent:
-                return vector(i);
+            case Aov::bitangent:
+                return frame_axis(i);
+            case Aov::stripes:
+                return stripes(i);
             case Aov::uv:
                 return coordinates(i);
             case Aov::triangle:
@@ -81,15 +86,60 @@ class ValueReader {
     [[nodiscard]] float attribute(int k, int i) const {
         return m_packet.attributes[k * kAttributeStride + i];
     }
-    [[nodiscard]] Channels vector(int i) const {
-        float v[3] = {0.0F, 0.0F, 0.0F};
-        if (m_count == 3) {
-            for (int k = 0; k < 3; ++k) v[k] = attribute(k, i);
-            const float length = std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
-            for (float& x : v) x = length > 0.0F ? x / length : 0.0F;
-        }
-        for (float& x : v) x = m_floats ? x : x * 0.5F + 0.5F;
-        return {v[0], v[1], v[2], 1.0F};
+    [[nodiscard]] glm::vec3 vector(int first, int i) const {
+        return {attribute(first, i), attribute(first + 1, i), attribute(first + 2, i)};
+    }
+    [[nodiscard]] Channels coded(glm::vec3 v) const {
+        const float length = std::sqrt((v.x * v.x + v.y * v.y) + v.z * v.z);
+        v = length > 0.0F ? v / length : glm::vec3(0.0F);
+        if (!m_floats) v = v * 0.5F + 0.5F;
+        return {v.x, v.y, v.z, 1.0F};
+    }
+    [[nodiscard]] Channels normal(int i) const {
+        return coded(m_count == 3 ? vector(0, i) : glm::vec3(0.0F));
+    }
+
+    struct Frame {
+        glm::vec3 t, b, n;
+    };
+    [[nodiscard]] Frame frame(int i) const {
+        Frame f{vector(kUvAttributes, i), vector(kUvAttributes + 3, i),
+                vector(kUvAttributes + 6, i)};
+        if (m_shown.orthonormal) make_orthonormal(f.t, f.b, f.n);
+        return f;
+    }
+    [[nodiscard]] bool has_frames() const { return m_shown.values.frame_attributes > 0; }
+    [[nodiscard]] Channels frame_axis(int i) const {
+        if (!has_frames()) return coded(glm::vec3(0.0F));
+        const Frame f = frame(i);
+        return coded(m_shown.world_from_object * (m_aov == Aov::tangent ? f.t : f.b));
+    }
+
+    /// In every cell a stroke through its middle along the tangent that the fragment itself has;
+    /// cells of every other row are moved by half.
+    [[nodiscard]] Channels stripes(int i) const {
+        constexpr int kCell = 16;  // pixels, a part of a tile
+        const Channels none{0.5F, 0.5F, 0.5F, 1.0F};
+        if (!has_frames()) return none;
+        const Frame f = frame(i);
+        const glm::vec4 at =
+            m_shown.pixels_from_object * glm::vec4(vector(kUvAttributes + 9, i), 1.0F);
+        const glm::vec4 step = m_shown.pixels_from_object * glm::vec4(f.t, 0.0F);
+        // The derivative of (x / w, y / w), times w squared.
+        const glm::vec2 way(step.x * at.w - at.x * step.w, step.y * at.w - at.y * step.w);
+        const float length = std::sqrt(way.x * way.x + way.y * way.y);
+        if (!(length > 0.0F)) return none;
+        const float x = way.x / length, y = way.y / length;
+        const int pixel = m_packet.pixels[i];
+        const int row = (pixel >> 3 & 7) + (pixel >> 6 & 56);
+        const int column = (pixel & 7) + (pixel >> 3 & 56) + row / kCell % 2 * (kCell / 2);
+        const float dx = static_cast<float>(column % kCell) - 7.5F,
+                    dy = static_cast<float>(row % kCell) - 7.5F;
+        const float along = x * dx + y * dy, across = x * dy - y * dx;
+        const bool stroke = std::abs(across) < 2.0F && std::abs(along) < 7.0F;
+        const bool mirrored = glm::dot(glm::cross(f.n, f.t), f.b) < 0.0F;
+        const float light = stroke ? 0.7F + along * (0.3F / 7.0F) : 0.15F;
+        return {light, mirrored ? light * 0.55F : light, mirrored ? light * 0.1F : light, 1.0F};
     }
     [[nodiscard]] Channels coordinates(int i) const {
         float u = attribute(0, i), v = attribute(1, i);
@@ -114,6 +164,7 @@ class ValueReader {
         return {channel(0), channel(1), channel(2), 1.0F};
     }
 
+    const ShownValues& m_shown;
     Aov m_aov;
     int m_count;
     const Packet& m_packet;
@@ -134,8 +185,9 @@ void fill_values(Shading& shading, std::size_t vertices, int count, F&& value) {
 
 }  // namespace
 
-ShownValues shown_values(Aov aov, const Object& object) {
-    ShownValues shown{aov, {}};
+ShownValues shown_values(Aov aov, const Object& object, TangentFrames tangent_frames,
+                         const glm::dmat4& pixels_from_world) {
+    ShownValues shown{.aov = aov, .values = {}};
     if (const auto* raw = std::get_if<RawVertices>(&object.geometry)) {
         if (aov == Aov::uv) {
             fill_values(shown.values, raw->vertices.size(), 3, [&](std::size_t v) {
@@ -152,11 +204,17 @@ ShownValues shown_values(Aov aov, const Object& object) {
         fill_values(shown.values, frames.size(), 2, [&](std::size_t v) {
             return glm::vec3(frames[v].uv.x, 1.0F - frames[v].uv.y, 0.0F);
         });
-    } else if (aov == Aov::normal || aov == Aov::tangent) {
-        fill_values(shown.values, frames.size(), 3, [&](std::size_t v) {
-            return world_from_object *
-                   (aov == Aov::normal ? frames[v].normal : glm::vec3(frames[v].tangent));
-        });
+    } else if (aov == Aov::normal) {
+        fill_values(shown.values, frames.size(), 3,
+                    [&](std::size_t v) { return world_from_object * frames[v].normal; });
+    } else if (aov == Aov::tangent || aov == Aov::bitangent || aov == Aov::stripes) {
+        shown.values.frames = frames;
+        shown.values.frame_attributes = kUvAttributes + kFrameAttributes;
+        shown.values.frames_from_uv = tangent_frames == TangentFrames::derivative;
+        shown.orthonormal = tangent_frames != TangentFrames::mikktspace;
+        shown.world_from_object = world_from_object;
+        shown.pixels_from_object =
+            glm::mat4(pixels_from_world * glm::dmat4(object.world_from_object));
     }
     return shown;
 }

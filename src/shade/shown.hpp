@@ -16,9 +16,15 @@ namespace burnish {
 struct ShownValues {
     std::optional<Aov> aov;  ///< nothing: the result of the program of `values`, a register
     Shading values;          ///< what triangles interpolate for it; with an aov it has no program
+    // Of aovs that show tangent frames:
+    bool orthonormal = false;  ///< frames are made so at the pixel
+    glm::mat3 world_from_object{1.0F};
+    glm::mat4 pixels_from_object{1.0F};  ///< homogeneous, y down, the same units along x and y
 };
 
-ShownValues shown_values(Aov aov, const Object& object);
+/// @param pixels_from_world  homogeneous, see ShownValues
+ShownValues shown_values(Aov aov, const Object& object, TangentFrames frames,
+                         const glm::dmat4& pixels_from_world);
 
 /// Where no fragment is.
 glm::vec4 background_of(Aov aov);

@@ -28,10 +28,8 @@ ExactInputs::ExactInputs(const Shading& shading, const ScreenMesh& mesh,
     : m_shading(shading),
       m_attributes(kMaxAttributes),
       m_planes(static_cast<std::size_t>(shading.program.plane_count)) {
-    std::array<std::array<float, kMaxInterpolated>, 3> corner;
-    for (std::size_t i = 0; i < 3; ++i) {
-        vertex_attributes(shading, triangle.vertex[i], corner[i].data());
-    }
+    CornerAttributes corner;
+    corner_attributes(shading, triangle, corner);
     const auto count = static_cast<std::size_t>(shading.interpolated());
     const std::array<Barycentrics, 3> places{barycentrics(mesh, triangle, x, y),
                                              barycentrics(mesh, triangle, x + 1, y),
@@ -155,13 +153,20 @@ void ExactInputs::light(const LightingCtx& ctx) {
     const auto vector = [&](int k) {
         return glm::dvec3(attribute(k), attribute(k + 1), attribute(k + 2));
     };
-    const glm::dvec3 tangent = vector(ctx.frame), bitangent = vector(ctx.frame + 3),
-                     normal = vector(ctx.frame + 6), position = vector(ctx.frame + 9);
+    glm::dvec3 tangent = vector(ctx.frame), bitangent = vector(ctx.frame + 3),
+               normal = vector(ctx.frame + 6);
+    const glm::dvec3 position = vector(ctx.frame + 9);
     const auto unit = [](const glm::dvec3& a) { return a / std::sqrt(glm::dot(a, a)); };
+    if (ctx.orthonormal != 0) {
+        normal = unit(normal);
+        tangent = unit(tangent - normal * glm::dot(normal, tangent));
+        const glm::dvec3 c = glm::cross(normal, tangent);
+        bitangent = glm::dot(c, bitangent) < 0.0 ? -c : c;
+    }
     const glm::dvec3 light(ctx.light[0], ctx.light[1], ctx.light[2]);
     const glm::dvec3 eye(ctx.eye[0], ctx.eye[1], ctx.eye[2]);
     const glm::dvec3 l = unit(light - position * static_cast<double>(ctx.light_w));
-    const glm::dvec3 v = unit(eye - position);
+    const glm::dvec3 v = unit(eye - position * static_cast<double>(ctx.eye_w));
     const auto write = [&](int k, const glm::dvec3& x) {
         if (k < 0) return;
         const double coded[3] = {glm::dot(tangent, x) * 0.5 + 0.5,
@@ -169,7 +174,7 @@ void ExactInputs::light(const LightingCtx& ctx) {
                                  glm::dot(normal, x) * 0.5 + 0.5};
         std::copy_n(coded, 3, m_attributes.begin() + k);
     };
-    const glm::dvec3 h = unit(l + v);
+    const glm::dvec3 h = ctx.raw_half != 0 ? (l + v) * 0.5 : unit(l + v);
     write(ctx.half_vector, h);
     write(ctx.light_vector, l);
     write(ctx.view_vector, v);

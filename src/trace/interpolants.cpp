@@ -18,6 +18,8 @@ std::string name_of(const Varying& v) {
             return "light_tangent";
         case Varying::Source::view_tangent:
             return "view_tangent";
+        case Varying::Source::half_sum:
+            return "half_sum";
         case Varying::Source::n_dot_l:
             return "n_dot_l";
         case Varying::Source::h_dot_l:

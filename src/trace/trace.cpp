@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/trace.hpp>
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "shade/normalisation_cube.hpp"
 #include "trace/fragment.hpp"
 #include "trace/pixel.hpp"
 #include "trace/program.hpp"
@@ -22,6 +24,7 @@ class TracedFrame {
         : m_scene(scene),
           m_view{&scene, make_view(scene.camera, scene.width, scene.height),
                  make_viewport(scene.machine, scene.width, scene.height)} {
+        m_view.half_cube = HalfVectorCube().of(scene.machine);
         for (const Object& object : scene.objects) {
             m_draws.push_back(std::make_unique<Draw>());
             prepare_draw(*m_draws.back(), m_view, object, m_maps);
@@ -34,11 +37,22 @@ class TracedFrame {
     }
 
     TracedFragment fragment(const VisibleTriangle& seen, int x, int y) {
+        TracedFragment out = in_light(0, seen, x, y);
+        const std::size_t further = m_draws[seen.setup.draw]->shading.further_lights.size();
+        for (std::size_t light = 1; light <= further; ++light) {
+            out.further_lights.push_back(in_light(light, seen, x, y));
+            add_light(out.further_lights.back(), out);
+        }
+        return out;
+    }
+
+  private:
+    TracedFragment in_light(std::size_t light, const VisibleTriangle& seen, int x, int y) {
         const std::size_t number = seen.setup.draw;
         const Object& object = m_scene.objects[number];
-        const ProgramMaterial program = program_of(object, m_scene, m_maps);
+        const ProgramMaterial program = program_of(object, m_scene, light, m_maps);
         Draw draw;
-        prepare_draw(draw, m_view, object, program, {.everything = true});
+        prepare_draw(draw, m_view, object, {&program, 1}, light, {.everything = true});
         transform_draw(draw, m_view, object, table_reference(), m_pool);
 
         TracedFragment out;
@@ -51,10 +65,21 @@ class TracedFrame {
         const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, out);
         name_corners(draw, seen.setup, out);
         trace_program(program, m_scene.machine, inputs, out);
+        out.light_codes = out.codes;
+        out.light_color = out.color;
         return out;
     }
 
-  private:
+    /// Colours add up to 1; alpha is the first light's.
+    void add_light(const TracedFragment& light, TracedFragment& sum) const {
+        const int one = code_of_one(m_scene.machine.numbers);
+        for (std::size_t c = 0; c < 3; ++c) {
+            sum.codes[c] = std::min(sum.codes[c] + light.codes[c], one);
+            sum.color[c] = {static_cast<double>(sum.codes[c]) / one,
+                            std::min(sum.color[c].exact + light.color[c].exact, 1.0)};
+        }
+    }
+
     /// Setup exchanges two corners of triangles that wind the other way round; here they stand as
     /// they were submitted.
     static void name_corners(const Draw& draw, const SetupTriangle& setup, TracedFragment& out) {

@@ -16,6 +16,26 @@ enum class NumberModel {
 enum class HalfVector {
     vertex,  ///< per vertex, interpolated as a colour, never renormalised: what the first chips saw
     pixel,   ///< from the interpolated frame and position, normalised at every pixel
+    cube,    ///< per vertex, not normalised, as coordinates of a cube map of unit vectors, which
+             ///< takes the place of one texture unit
+};
+
+/// Whose direction the view vector is.
+enum class Viewer {
+    local,     ///< the eye, from every point another
+    infinite,  ///< as if the eye were far away in the middle of the picture: one for all points
+};
+
+/// What the tangent frame at a pixel is made of.
+enum class TangentFrames {
+    /// T, B and N of the vertices, interpolated and not normalised: the contract of MikkTSpace.
+    mikktspace,
+    /// The same, then N normalised, T made perpendicular to it and normalised, B from both; on a
+    /// machine with half vectors per vertex at the vertices.
+    orthonormal,
+    /// As orthonormal, from the triangle's own dP/du and dP/dv instead of the vertices' T and B:
+    /// for meshes without usable tangents. Half vectors per pixel only.
+    derivative,
 };
 
 /// How x = a b, of general products, of E F and of the final A B + (1 - A) C, becomes a nine-bit
@@ -75,18 +95,33 @@ struct Machine {
     /// (burnish/multipass.hpp), instead of refused.
     bool multipass = false;
     HalfVector half_vector = HalfVector::pixel;
+    int half_vector_size = 64;  ///< HalfVector::cube: texels a side, 1 .. 1024
+    /// HalfVector::cube: what a texel's component is rounded to, 8, 9 or 16 bits; registers of nine
+    /// bits take 8.
+    int half_vector_bits = 8;
+    /// Else h is (l + v) / 2 of the unit vectors l and v. A cube map needs the default.
+    bool normalise_half_vector = true;
+    Viewer viewer = Viewer::local;
+    TangentFrames tangent_frames = TangentFrames::mikktspace;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
-    /// No machine: the formulas of the reflectance models in double precision (docs/models.md), with
-    /// half vectors per pixel. The other fields above mean nothing then.
+    /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
+    /// the fields above, `viewer` and `tangent_frames` count, and `half_vector` must be `pixel`.
     bool double_precision = false;
 
     /// Throws Error{bad_option} for a field outside its range, for a choice of the nine-bit model
-    /// on a wide machine, and with double_precision for half vectors at the vertices.
+    /// on a wide machine, and with double_precision for half vectors other than per pixel.
     void validate() const;
 
     friend bool operator==(const Machine&, const Machine&) = default;
+
+    /// What is left for programs: a cube map for half vectors has one of the texture units.
+    [[nodiscard]] Machine for_programs() const;
 };
+
+/// Sets half_vector from "pixel", "vertex" or "cube:N", and its size from N.
+/// Throws Error{bad_option} for anything else.
+void choose_half_vector(Machine& machine, std::string_view word);
 
 /// The names that `machine_profile` knows: machines in order of age, then "double".
 std::vector<std::string_view> machine_profile_names();

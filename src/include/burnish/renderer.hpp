@@ -51,9 +51,13 @@ struct ShownRegister {
 /// Frames of floats get numbers as they are. Others get them to the nearest code, clamped to 0 .. 1
 /// unless it says otherwise.
 enum class Aov {
-    depth,   ///< window depth, 0 .. 1, in r, g and b
-    normal,  ///< interpolated and normalised, world space; others x/2 + 1/2. Raw vertices: 0
-    tangent,
+    depth,      ///< window depth, 0 .. 1, in r, g and b
+    normal,     ///< interpolated and normalised, world space; others x/2 + 1/2. Raw vertices: 0
+    tangent,    ///< as the machine's tangent_frames have it at the pixel
+    bitangent,  ///< likewise
+    /// Strokes along the tangent as it is seen, brighter towards where it points, in cells of 16 x
+    /// 16 pixels: white, or orange where the frame is mirrored. Grey where it points at the eye.
+    stripes,
     uv,        ///< r, g: what textures are sampled at, v downward; others u - floor(u). Of raw
                ///< vertices the first coordinates, divided by q
     triangle,  ///< r: number of the triangle, g: of the object; others a colour made of both

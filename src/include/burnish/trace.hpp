@@ -111,9 +111,14 @@ struct TracedFragment {
     std::vector<TracedUnit> units;  ///< of the texture shader, if there is one
     std::vector<TracedFetch> fetches;
     std::vector<TracedStage> stages;
-    std::array<int, 4> codes{};           ///< of the final combiner's result
+    std::array<int, 4> codes{};           ///< of the final combiner's results, all lights together
     std::array<TracedNumber, 4> color{};  ///< the same as numbers
-    std::optional<TracedBlend> blend;     ///< nothing: the colour replaced the pixel's
+    std::array<int, 4> light_codes{};     ///< of the first light alone
+    std::array<TracedNumber, 4> light_color{};
+    /// What differs from light to light, for each but the first: interpolants, fetches, stages and
+    /// what the final combiner left, in both `codes` and `light_codes`.
+    std::vector<TracedFragment> further_lights;
+    std::optional<TracedBlend> blend;  ///< nothing: the colour replaced the pixel's
 };
 
 struct PixelTrace {
