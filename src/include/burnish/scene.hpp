@@ -107,7 +107,7 @@ struct ParameterMap {
     float low = 0.0F, high = 1.0F;
 };
 
-/// How a number of -1 .. 1 stands in a byte n of a vector map (docs/models.md).
+/// How a number of -1 .. 1 stands in a byte n of a vector map (docs/materials.md).
 enum class VectorEncoding {
     a,  ///< n / 127.5 - 1: no exact zero
     b,  ///< (n - 128) / 127, at least -1
