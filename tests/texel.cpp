@@ -198,6 +198,22 @@ TEST(Texel, WordsAndSignedTexelsKeepTheirPrecision) {
     expect_near(TexelSource(m).at(0, 0).n, {0.0, 0.6, 0.8}, 1e-15);
 }
 
+TEST(Texel, TwoChannelsLeaveTheThirdToTheLength) {
+    Image16 image(1, 1);
+    image.rgba = {0, 19661, 0, 0};  // 0.6 as two's complement of 15 bits
+    TextureDescription description;
+    description.format = TexelFormat::signed_hilo16;
+    Material m;
+    m.normal_map = std::make_shared<const Texture>(std::span(&image, 1), description);
+    expect_near(TexelSource(m).at(0, 0).n, {0.0, 0.6, 0.8}, 1.0 / 32768);
+    Material other;
+    other.alpha_x_map = {m.normal_map, 3, 0.0F, 0.5F};
+    other.kd_map = m.normal_map;
+    other.kd = glm::vec3(1.0F);
+    EXPECT_EQ(TexelSource(other).at(0, 0).alpha_x, 0.5) << "a fourth channel is 1";
+    EXPECT_EQ(TexelSource(other).at(0, 0).kd.b, 0.0) << "and a third 0";
+}
+
 TEST(Texel, BrushedSteelHasTheWidthsThatItsMapsSay) {
     const TexelSource source(brushed_steel(1));
     ASSERT_EQ(source.width(), 512);
@@ -223,6 +239,9 @@ TEST(Texel, RefusesMapsThatAreNotSurfaces) {
     half.tangent_map = map_of(1, 1, {{255, 128, 128, 255}});
     half.map_scale = 1.0F;
     EXPECT_THROW(TexelSource{half}, Error);
+    Material fifth;
+    fifth.alpha_x_map = {map_of(1, 1, {{1, 2, 3, 4}}), 4, 0.0F, 1.0F};
+    EXPECT_THROW(TexelSource{fifth}, Error);
 }
 
 }  // namespace
