@@ -128,7 +128,7 @@ struct Material {
     ParameterMap alpha_x_map, alpha_y_map, exponent_map;  ///< instead of the numbers
     TexturePtr kd_map;                                    ///< rgb multiplies kd
     TexturePtr direction_map;  ///< r, g: cosine and sine, to `encoding`, of the angle from the u
-                               ///< axis to the tangent, towards +v
+                               ///< axis to the tangent, against the clock
     VectorEncoding encoding = VectorEncoding::d;  ///< of normal_map and direction_map
     bool normal_y_up = true;                      ///< false: normal_map's green grows downwards
     bool srgb_colors = false;                     ///< kd_map and specular_map hold sRGB

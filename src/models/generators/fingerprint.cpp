@@ -29,9 +29,14 @@ struct Singularities {
 Singularities whorl(std::uint32_t seed) {
     Random random(seed);
     const auto near = [&](double x, double y) {
-        return glm::dvec2(x + random.between(-0.03, 0.03), y + random.between(-0.03, 0.03));
+        return glm::dvec2(x, y) + random.between(glm::dvec2(-0.03), glm::dvec2(0.03));
     };
-    return {{near(0.5, 0.60), near(0.5, 0.50)}, {near(0.14, 0.22), near(0.86, 0.22)}};
+    Singularities field;
+    field.cores[0] = near(0.5, 0.60);
+    field.cores[1] = near(0.5, 0.50);
+    field.deltas[0] = near(0.14, 0.22);
+    field.deltas[1] = near(0.86, 0.22);
+    return field;
 }
 
 /// Angle of the ridges from the u axis (zero-pole model, Sherlock and Monro 1993).
