@@ -304,8 +304,8 @@ TEST(GeneratedSets, BitsDoNotDependOnTheMachine) {
     // Made once and written down; every compiler and CPU has to repeat them.
     const std::pair<const char*, std::uint64_t> expected[] = {
         {"brushed", 14522764900500129185U},     {"lathe", 3051002919932246737U},
-        {"cross_hatch", 12256718386804500968U},  {"sunburst", 11770892654416647241U},
-        {"orbital", 850334911237438309U},     {"corrosion", 4232670430689645975U},
+        {"cross_hatch", 12256718386804500968U}, {"sunburst", 11770892654416647241U},
+        {"orbital", 850334911237438309U},       {"corrosion", 4232670430689645975U},
         {"fingerprint", 12675441929642161626U}, {"weave", 648605029679579845U}};
     for (const auto& [name, bits] : expected)
         EXPECT_EQ(hash_of(generated_set(name, 1, 64)), bits) << name;
