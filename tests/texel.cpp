@@ -5,6 +5,7 @@
 #include <burnish/materials.hpp>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -226,6 +227,29 @@ TEST(Texel, BrushedSteelHasTheWidthsThatItsMapsSay) {
         EXPECT_LT(p.alpha_y, 1.0);
         EXPECT_GT(p.t.x, 0.95) << "marks run along u";
     }
+}
+
+TEST(Texel, BitsDoNotDependOnTheMachine) {
+    // Filtered vectors, decoded colours, ranges: made once and written down.
+    Material m = generated_material("lathe", 1, 16);
+    m.normal_map = generated_material("cross_hatch", 1, 24).normal_map;
+    m.kd_map = generated_material("weave", 1, 10).kd_map;
+    m.srgb_colors = true;
+    const TexelSource source(m);
+    ASSERT_EQ(source.width(), 24);
+    std::uint64_t h = 0xcbf29ce484222325U;
+    const auto add = [&h](double x) {
+        h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3U;
+        h ^= h >> 29;
+    };
+    for (int i = 0; i < 24 * 24; ++i) {
+        const TexelParameters p = source.at(i % 24, i / 24);
+        for (const glm::dvec3& v : {p.n, p.t, p.b, p.kd, p.ks}) {
+            for (int k = 0; k < 3; ++k) add(v[k]);
+        }
+        for (const double x : {p.alpha_x, p.alpha_y, p.exponent}) add(x);
+    }
+    EXPECT_EQ(h, 3931617320484351092U);
 }
 
 TEST(Texel, RefusesMapsThatAreNotSurfaces) {
