@@ -5,6 +5,7 @@
 #include <burnish/materials.hpp>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -198,6 +199,22 @@ TEST(Texel, WordsAndSignedTexelsKeepTheirPrecision) {
     expect_near(TexelSource(m).at(0, 0).n, {0.0, 0.6, 0.8}, 1e-15);
 }
 
+TEST(Texel, TwoChannelsLeaveTheThirdToTheLength) {
+    Image16 image(1, 1);
+    image.rgba = {0, 19661, 0, 0};  // 0.6 as two's complement of 15 bits
+    TextureDescription description;
+    description.format = TexelFormat::signed_hilo16;
+    Material m;
+    m.normal_map = std::make_shared<const Texture>(std::span(&image, 1), description);
+    expect_near(TexelSource(m).at(0, 0).n, {0.0, 0.6, 0.8}, 1.0 / 32768);
+    Material other;
+    other.alpha_x_map = {m.normal_map, 3, 0.0F, 0.5F};
+    other.kd_map = m.normal_map;
+    other.kd = glm::vec3(1.0F);
+    EXPECT_EQ(TexelSource(other).at(0, 0).alpha_x, 0.5) << "a fourth channel is 1";
+    EXPECT_EQ(TexelSource(other).at(0, 0).kd.b, 0.0) << "and a third 0";
+}
+
 TEST(Texel, BrushedSteelHasTheWidthsThatItsMapsSay) {
     const TexelSource source(brushed_steel(1));
     ASSERT_EQ(source.width(), 512);
@@ -212,6 +229,29 @@ TEST(Texel, BrushedSteelHasTheWidthsThatItsMapsSay) {
     }
 }
 
+TEST(Texel, BitsDoNotDependOnTheMachine) {
+    // Filtered vectors, decoded colours, ranges: made once and written down.
+    Material m = generated_material("lathe", 1, 16);
+    m.normal_map = generated_material("cross_hatch", 1, 24).normal_map;
+    m.kd_map = generated_material("weave", 1, 10).kd_map;
+    m.srgb_colors = true;
+    const TexelSource source(m);
+    ASSERT_EQ(source.width(), 24);
+    std::uint64_t h = 0xcbf29ce484222325U;
+    const auto add = [&h](double x) {
+        h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3U;
+        h ^= h >> 29;
+    };
+    for (int i = 0; i < 24 * 24; ++i) {
+        const TexelParameters p = source.at(i % 24, i / 24);
+        for (const glm::dvec3& v : {p.n, p.t, p.b, p.kd, p.ks}) {
+            for (int k = 0; k < 3; ++k) add(v[k]);
+        }
+        for (const double x : {p.alpha_x, p.alpha_y, p.exponent}) add(x);
+    }
+    EXPECT_EQ(h, 3931617320484351092U);
+}
+
 TEST(Texel, RefusesMapsThatAreNotSurfaces) {
     TextureDescription cube;
     cube.target = TextureTarget::cube;
@@ -223,6 +263,9 @@ TEST(Texel, RefusesMapsThatAreNotSurfaces) {
     half.tangent_map = map_of(1, 1, {{255, 128, 128, 255}});
     half.map_scale = 1.0F;
     EXPECT_THROW(TexelSource{half}, Error);
+    Material fifth;
+    fifth.alpha_x_map = {map_of(1, 1, {{1, 2, 3, 4}}), 4, 0.0F, 1.0F};
+    EXPECT_THROW(TexelSource{fifth}, Error);
 }
 
 }  // namespace

@@ -28,9 +28,10 @@ std::array<std::pair<const char*, TexturePtr>, 9> maps_of(const Material& m) {
 }
 
 /// Channel c of the texel (x, y) as the number of its format, 0 .. 1 or -1 .. 1; (-1, -1): of the
-/// border.
+/// border. Formats of two channels have b = 0 and a = 1.
 double channel(const Texture& map, int x, int y, int c) {
     if (x < 0) return static_cast<double>(map.sampler().border[static_cast<std::size_t>(c)]);
+    if (is_hilo(map.format()) && c > 1) return c == 3 ? 1.0 : 0.0;
     const bool words = has_words(map.format());
     const double most = map.is_signed(c) ? (words ? 32768.0 : 128.0) : (words ? 65535.0 : 255.0);
     return map.texel(0, 0, x, y, c) / most;
@@ -68,6 +69,13 @@ TexelSource::TexelSource(const Material& material) : m_material(material) {
                     fmt::format("material '{}': map_scale {} of its vector maps, expected more "
                                 "than 0",
                                 material.name, material.map_scale));
+    for (const ParameterMap* map :
+         {&material.alpha_x_map, &material.alpha_y_map, &material.exponent_map}) {
+        if (map->channel < 0 || map->channel > 3)
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("material '{}': channel {} of a map, expected 0 .. 3",
+                                    material.name, map->channel));
+    }
     std::int64_t most = 0;
     for (const auto& [name, map] : maps_of(material)) {
         if (!map) continue;

@@ -15,7 +15,7 @@ Surface cross_hatch(std::uint32_t seed, int size) {
     Random random(mix(seed, 1));
     constexpr int kStrokes = 4200;  // each texel is crossed by about seven
     for (std::uint32_t i = 1; i <= kStrokes; ++i) {
-        glm::dvec2 at(random.next() * size, random.next() * size);
+        glm::dvec2 at = random.between(glm::dvec2(0.0), glm::dvec2(size));
         const double angle = random.between(32.0, 38.0) * dmath::kPi / 180.0;
         const double sign = i % 2 == 0 ? 1.0 : -1.0;
         const glm::dvec2 direction(dmath::cos(angle), sign * dmath::sin(angle));

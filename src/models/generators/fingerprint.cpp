@@ -20,27 +20,38 @@ constexpr int kReach = 7;        ///< of the filter, grid cells
 constexpr int kAngles = 48;      ///< of the filter, over half a turn
 constexpr int kRounds = 7;
 
-/// Where the orientation turns by half a turn: with the walk around a core, against it around a
-/// delta. Positions 0 .. 1, y upwards.
-struct Singularities {
-    std::array<glm::dvec2, 2> cores, deltas;
+/// Where the orientation turns by half a turn, with the walk around a core, against it around a
+/// delta. Positions 0 .. 1, y upwards. The angle jumps by half a turn along the ray `cut`.
+struct Singularity {
+    double turn;  ///< 1/2 or -1/2
+    glm::dvec2 at, cut;
 };
 
-Singularities whorl(std::uint32_t seed) {
+/// Two cores in the middle, and a delta on each side below. The cuts of the cores meet at the
+/// second one and cancel behind it; those of the deltas run away from the finger.
+std::array<Singularity, 4> whorl(std::uint32_t seed) {
     Random random(seed);
     const auto near = [&](double x, double y) {
-        return glm::dvec2(x + random.between(-0.03, 0.03), y + random.between(-0.03, 0.03));
+        return glm::dvec2(x, y) + random.between(glm::dvec2(-0.03), glm::dvec2(0.03));
     };
-    return {{near(0.5, 0.60), near(0.5, 0.50)}, {near(0.14, 0.22), near(0.86, 0.22)}};
+    const glm::dvec2 upper = near(0.5, 0.60), lower = near(0.5, 0.50);
+    const glm::dvec2 left = near(0.14, 0.22), right = near(0.86, 0.22);
+    const glm::dvec2 down = unit(lower - upper);
+    return {{{0.5, upper, down},
+             {0.5, lower, down},
+             {-0.5, left, {-1.0, 0.0}},
+             {-0.5, right, {1.0, 0.0}}}};
 }
 
 /// Angle of the ridges from the u axis (zero-pole model, Sherlock and Monro 1993).
-double ridge_angle(const Singularities& field, const glm::dvec2& p) {
+double ridge_angle(const std::array<Singularity, 4>& field, const glm::dvec2& p) {
     double angle = 0.0;
-    for (const glm::dvec2& core : field.cores)
-        angle += 0.5 * dmath::atan2(p.y - core.y, p.x - core.x);
-    for (const glm::dvec2& delta : field.deltas)
-        angle -= 0.5 * dmath::atan2(p.y - delta.y, p.x - delta.x);
+    for (const Singularity& s : field) {
+        const glm::dvec2 d = p - s.at;
+        // From the ray opposite to the cut, so that the jump of atan2 lies on the cut.
+        const double from_ray = dmath::atan2(s.cut.y * d.x - s.cut.x * d.y, -glm::dot(s.cut, d));
+        angle += s.turn * (from_ray + dmath::atan2(-s.cut.y, -s.cut.x));
+    }
     return angle;
 }
 
@@ -70,7 +81,7 @@ std::vector<double> ridge_filter(double angle) {
 }
 
 /// White noise, filtered along the ridges again and again until it is ridges: -1 .. 1.
-Field ridge_pattern(std::uint32_t seed, const Singularities& field) {
+Field ridge_pattern(std::uint32_t seed, const std::array<Singularity, 4>& field) {
     std::vector<std::vector<double>> filters;
     for (int k = 0; k < kAngles; ++k) filters.push_back(ridge_filter(k * dmath::kPi / kAngles));
     Field pattern(kGrid);
@@ -117,7 +128,7 @@ double sample(const Field& field, double u, double v) {
 }  // namespace
 
 Surface fingerprint(std::uint32_t seed, int size) {
-    const Singularities field = whorl(mix(seed, 1));
+    const std::array<Singularity, 4> field = whorl(mix(seed, 1));
     const auto ridges = std::make_shared<const Field>(ridge_pattern(mix(seed, 2), field));
     const SurfaceNoise pressure(mix(seed, 3), size, 90.0, 90.0);
     const SurfaceNoise sweat(mix(seed, 4), size, 9.0, 9.0);
@@ -125,9 +136,7 @@ Surface fingerprint(std::uint32_t seed, int size) {
         const double u = (x + 0.5) / size, v = (y + 0.5) / size;
         const double angle = ridge_angle(field, {u, 1.0 - v});
         SurfaceTexel texel;
-        // Ridges have no sense of direction; of the two, the one that points to the right.
-        const double c = dmath::cos(angle), s = dmath::sin(angle);
-        texel.direction = c < 0.0 ? glm::dvec2(-c, -s) : glm::dvec2(c, s);
+        texel.direction = {dmath::cos(angle), dmath::sin(angle)};
         const double ex = (u - 0.5) / 0.40, ey = (v - 0.48) / 0.47;
         const double finger = 1.0 - ramp(0.75, 1.0, std::sqrt(ex * ex + ey * ey));
         const double contact = finger * (0.8 + 0.3 * pressure.at(x, y) + 0.15 * sweat.at(x, y));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 
 /// Numbers that look random and are the same on every machine.
 namespace burnish::generators {
@@ -26,6 +27,11 @@ class Random {
     explicit Random(std::uint32_t seed) : m_seed(seed) {}
     double next() { return unit_interval(mix(m_seed, m_count++)); }
     double between(double low, double high) { return low + (high - low) * next(); }
+    /// Two of them, x first: compilers disagree about the order of arguments.
+    glm::dvec2 between(const glm::dvec2& low, const glm::dvec2& high) {
+        const double x = between(low.x, high.x);
+        return {x, between(low.y, high.y)};
+    }
 
   private:
     std::uint32_t m_seed;

@@ -15,7 +15,7 @@ Surface orbital(std::uint32_t seed, int size) {
     Random random(mix(seed, 1));
     constexpr int kArcs = 5200;  // each texel is crossed by about seven
     for (std::uint32_t i = 1; i <= kArcs; ++i) {
-        const glm::dvec2 centre(random.next() * size, random.next() * size);
+        const glm::dvec2 centre = random.between(glm::dvec2(0.0), glm::dvec2(size));
         const double radius = random.between(0.02, 0.09) * size;
         const double start = random.between(0.0, 2.0 * dmath::kPi);
         const double sweep = random.between(1.0, 2.0 * dmath::kPi);
