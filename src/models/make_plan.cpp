@@ -550,11 +550,20 @@ class Planner {
 
     PlanAxis axis(const Expr& arg, const Interval& range) {
         PlanAxis a;
-        const Operand x = lower(arg);
+        Operand x = lower(arg);
         a.input = x.input;
         a.unit = x.unit;
         a.is_signed = (x.input.mapping == Mapping::signed_identity && range.low < 0.0) ||
                       (x.input.mapping == Mapping::signed_negate && range.high > 0.0);
+        if (a.is_signed && m_task.numbers == NumberModel::nine_bit) {
+            // Frames hold no signs: x/2 + 1/2.
+            PlanValue v;
+            v.products = 2;
+            v.factors = {x.input, constant(0.5), one(), constant(0.5)};
+            x.input = {add(v), Mapping::expand};
+            a.input = x.input;
+            a.is_signed = false;
+        }
         if (arg.op == ExprOp::quantity) {
             const int index = m_plan.values[static_cast<std::size_t>(x.input.value)].index;
             const PlanQuantity& q = m_plan.quantities[static_cast<std::size_t>(index)];
