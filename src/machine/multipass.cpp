@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/multipass.hpp>
-#include <burnish/program_text.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "machine/ranges.hpp"
+#include "machine/value_passes.hpp"
 
 namespace burnish {
 
@@ -93,24 +93,8 @@ std::vector<RegisterPart> parts_written(const GeneralStage& stage) {
     return parts;
 }
 
-/// Where something is that earlier passes left: in a frame, or in a table that a frame addresses.
-struct Source {
-    int frame = -1;
-    int table = -1;  ///< unit of the material
-
-    friend auto operator<=>(const Source&, const Source&) = default;
-};
-
-/// What earlier passes left: part of a register -> where it is.
-using Frames = std::map<RegisterPart, Source>;
-
-/// What a coordinate of a fetch reads, as an input of the final combiner.
-Input coordinate_input(const FetchCoordinate& from) {
-    const Component component = from.component == 3   ? Component::alpha
-                                : from.component == 2 ? Component::blue
-                                                      : Component::rgb;
-    return {from.reg, Mapping::unsigned_identity, component};
-}
+/// What earlier passes left: part of a register -> the pass whose frame holds it.
+using Frames = std::map<RegisterPart, int>;
 
 /// Looks for cuts between stages, the later ones first, with a step back where the rest cannot be
 /// done.
@@ -125,29 +109,16 @@ class Splitter {
           m_stages(static_cast<int>(program.stages.size())),
           m_ranges(register_ranges(program, machine, units)) {}
 
-    std::vector<ProgramPass> split() {
-        Frames frames;
-        const bool fetches_first = m_stages > 0 && !stage(0).fetches.empty();
-        if ((fetches_first && !write_frames(0, 0, {}, frames)) || !continue_at(0, frames)) {
-            throw Error(ErrorCode::bad_program,
-                        fmt::format("cannot be split into passes for machine '{}': {}",
-                                    m_machine.name, m_obstacle));
-        }
-        return std::move(m_passes);
-    }
+    bool split() { return continue_at(0, {}); }
+    std::vector<ProgramPass> take() { return std::move(m_passes); }
+    [[nodiscard]] const std::string& obstacle() const { return m_obstacle; }
 
   private:
-    /// Passes for stages `first` and later and the final combiner; false where there are none. The
-    /// fetches before stage `first` are among `frames`.
+    /// Passes for stages `first` and later and the final combiner; false where there are none.
     bool continue_at(int first, const Frames& frames) {
-        int last = std::min(m_stages, first + m_machine.general_stages);
-        for (int s = first + 1; s < last; ++s) {
-            if (!stage(s).fetches.empty()) last = s;
-        }
+        const int last = std::min(m_stages, first + m_machine.general_stages);
         if (last == m_stages && add_pass(first, m_stages, m_program.final_combiner, frames))
             return true;
-        if (last < m_stages && last == first)
-            return fail(first, "the machine has no general stage");
         for (int end = std::min(last, m_stages - 1); end > first; --end) {
             const std::size_t before = m_passes.size();
             Frames left = frames;
@@ -192,15 +163,6 @@ class Splitter {
             live.insert(read.part);
         };
         for (int s = end; s < m_stages; ++s) {
-            // Coordinates of the fetches at the cut get frames of their own.
-            for (const StageFetch& fetch : stage(s).fetches) {
-                for (int i = 0; s > end && i < coordinate_count(fetch.target); ++i)
-                    look(s, {part_of(coordinate_input(fetch.coordinates[at(i)]))});
-            }
-            for (const StageFetch& fetch : stage(s).fetches) {
-                replaced.insert({fetch.destination, false});
-                replaced.insert({fetch.destination, true});
-            }
             for_each_read(stage(s), [&](const Read& read) { look(s, read); });
             for (const RegisterPart part : parts_written(stage(s))) replaced.insert(part);
         }
@@ -217,44 +179,18 @@ class Splitter {
         }
         std::vector<Register> colors, alphas;
         for (const RegisterPart part : live) (part.alpha ? alphas : colors).push_back(part.reg);
-        const std::vector<StageFetch>& fetches = stage(end).fetches;
-        // The stages do nothing that counts.
-        if (live.empty() && fetches.empty()) colors.push_back(Register::zero);
+        if (live.empty()) colors.push_back(Register::zero);  // the stages do nothing that counts
         for (std::size_t i = 0; i < std::max(colors.size(), alphas.size()); ++i) {
             FinalCombiner keep;
             if (i < colors.size()) keep.d.reg = colors[i];
             if (i < alphas.size()) keep.g.reg = alphas[i];
             if (!add_pass(first, end, keep, frames)) return false;
             const int pass = static_cast<int>(m_passes.size()) - 1;
-            if (i < colors.size()) left[{colors[i], false}] = {pass};
-            if (i < alphas.size()) left[{alphas[i], true}] = {pass};
-        }
-        for (const StageFetch& fetch : fetches) {
-            if (!add_coordinates(first, end, fetch, frames)) return false;
-            const Source source{static_cast<int>(m_passes.size()) - 1, unit_of(fetch.destination)};
-            left[{fetch.destination, false}] = left[{fetch.destination, true}] = source;
+            if (i < colors.size()) left[{colors[i], false}] = pass;
+            if (i < alphas.size()) left[{alphas[i], true}] = pass;
         }
         return true;
     }
-
-    /// A pass whose frame addresses a table: s in alpha, t in red.
-    bool add_coordinates(int first, int end, const StageFetch& fetch, const Frames& frames) {
-        const int count = coordinate_count(fetch.target);
-        const FetchCoordinate& s = fetch.coordinates[0];
-        const FetchCoordinate& t = fetch.coordinates[1];
-        if (count > 2 || fetch.target == FetchTarget::table_rectangle)
-            return fail(end, "a dependent read has two coordinates of 0 .. 1");
-        if (s.expand || s.component < 2 || (count == 2 && (t.expand || t.component % 3 != 0)))
-            return fail(end, fmt::format("{}: a frame can bring blue or alpha to the first "
-                                         "coordinate, red or alpha to the second",
-                                         print_fetch(fetch)));
-        FinalCombiner keep;
-        keep.g = coordinate_input(s);
-        if (count == 2) keep.d = coordinate_input(t);
-        return add_pass(first, end, keep, frames);
-    }
-
-    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
     [[nodiscard]] const GeneralStage& stage(int s) const {
         return m_program.stages[static_cast<std::size_t>(s)];
@@ -264,7 +200,6 @@ class Splitter {
     struct Places {
         std::vector<PassUnit> units;
         std::map<int, int> of_unit, of_frame;  ///< -> unit of the pass
-        std::map<Source, int> of_table;
     };
 
     /// Calls f(stage, read, replaced) for every read of a pass; `replaced`: the pass itself wrote
@@ -284,16 +219,13 @@ class Splitter {
     bool find_places(int first, int end, const FinalCombiner& final_combiner, const Frames& frames,
                      Places& places) {
         std::set<int> own, read_frames, taken;
-        std::set<Source> read_tables;
         bool needs_unit_0 = false;
         for_each_read_of_pass(first, end, final_combiner,
                               [&](int, const Read& read, bool replaced) {
                                   if (replaced) return;
                                   const auto frame = frames.find(read.part);
                                   if (frame != frames.end()) {
-                                      read_frames.insert(frame->second.frame);
-                                      if (frame->second.table >= 0)
-                                          read_tables.insert(frame->second);
+                                      read_frames.insert(frame->second);
                                   } else if (is_texture(read.part.reg)) {
                                       own.insert(unit_of(read.part.reg));
                                   } else if (read.part == RegisterPart{Register::spare0, true}) {
@@ -323,10 +255,9 @@ class Splitter {
             return unit;
         };
         const auto short_of = [&] {
-            return fail(first,
-                        fmt::format("{} textures and {} frames of earlier passes are read, "
-                                    "with {} texture units",
-                                    own.size() + read_tables.size(), read_frames.size(), count));
+            return fail(first, fmt::format("{} textures and {} frames of earlier passes are read, "
+                                           "with {} texture units",
+                                           own.size(), read_frames.size(), count));
         };
         for (const int unit : own) {
             const bool keeps = unit < count;
@@ -335,24 +266,11 @@ class Splitter {
             places.units[static_cast<std::size_t>(place)].material_unit = unit;
             places.of_unit[unit] = place;
         }
-        // Tables in the last units: what addresses them comes before.
-        for (const Source& source : read_tables) {
-            const int place = free_unit();
-            if (place < 0) return short_of();
-            places.units[at(place)].material_unit = source.table;
-            places.of_table[source] = place;
-        }
         for (const int frame : read_frames) {
             const int place = free_unit();
             if (place < 0) return short_of();
             places.units[static_cast<std::size_t>(place)].frame = frame;
             places.of_frame[frame] = place;
-        }
-        for (const auto& [source, place] : places.of_table) {
-            const int address = places.of_frame.at(source.frame);
-            if (address > place)
-                return fail(first, "no unit before a table's is left for its frame");
-            places.units[at(place)].address = address;
         }
         return true;
     }
@@ -397,7 +315,6 @@ class Splitter {
         ProgramPass pass{m_program, places.units};
         pass.program.stages.assign(m_program.stages.begin() + first,
                                    m_program.stages.begin() + end);
-        for (GeneralStage& s : pass.program.stages) s.fetches.clear();
         pass.program.final_combiner = final_combiner;
         if (!set_constants(first, end, final_combiner, pass.program)) return false;
 
@@ -407,13 +324,7 @@ class Splitter {
             if (replaced.count(part) != 0) return;
             if (const auto frame = frames.find(part); frame != frames.end()) {
                 // A dead input may name a frame that nothing of the pass reads.
-                if (frame->second.table >= 0) {
-                    const auto table = places.of_table.find(frame->second);
-                    input.reg =
-                        table == places.of_table.end() ? Register::zero : tex(table->second);
-                    return;
-                }
-                const auto place = places.of_frame.find(frame->second.frame);
+                const auto place = places.of_frame.find(frame->second);
                 input.reg = place == places.of_frame.end() ? Register::zero : tex(place->second);
             } else if (is_texture(input.reg)) {
                 const auto place = places.of_unit.find(unit_of(input.reg));
@@ -473,7 +384,23 @@ std::vector<ProgramPass> split_into_passes(const CombinerProgram& program, const
                     fmt::format("cannot be split into passes: an 8-bit frame does not hold the "
                                 "registers of machine '{}'",
                                 machine.name));
-    return Splitter(program, machine, units, fixed).split();
+    const bool fetches =
+        std::any_of(program.stages.begin(), program.stages.end(),
+                    [](const GeneralStage& stage) { return !stage.fetches.empty(); });
+    std::string obstacle;
+    if (!fetches) {
+        Splitter splitter(program, machine, units, fixed);
+        if (splitter.split()) return splitter.take();
+        obstacle = splitter.obstacle();
+    }
+    if (!fixed) {
+        std::string why;
+        if (auto passes = passes_by_value(program, machine, units, why)) return *std::move(passes);
+        obstacle += (obstacle.empty() ? "" : "; value by value: ") + why;
+    }
+    throw Error(
+        ErrorCode::bad_program,
+        fmt::format("cannot be split into passes for machine '{}': {}", machine.name, obstacle));
 }
 
 }  // namespace burnish

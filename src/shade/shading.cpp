@@ -402,10 +402,8 @@ ProgramMaterial material_of_pass(const ProgramMaterial& material, const ProgramP
         TextureUnit& to = own.texture_shader->units[i];
         if (unit < kTextureShaderUnits) {
             to = material.texture_shader->units[unit];
-            own.uv[i] = material.uv[unit];
         } else {
             to.operation = TextureOperation::texture_2d;
-            own.uv[i] = material.uv[0];
         }
     }
     return own;
