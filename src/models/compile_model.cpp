@@ -106,7 +106,10 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
         if (term.scalar) roots.push_back(term.scalar.get());
     }
     const Machine room = machine.multipass ? with_room(machine) : machine;
-    Cover cover(roots, ranges, machine.numbers, room.stage_fetches);
+    const TablePrice price = machine.stage_fetches ? TablePrice::fetch
+                             : room.stage_fetches  ? TablePrice::passes
+                                                   : TablePrice::none;
+    Cover cover(roots, ranges, machine.numbers, price);
     task.terms = &terms;
     task.varies = source.varies();
     task.light = light;
