@@ -334,6 +334,8 @@ class Planner {
                 return in_units(lower(first ? *e.args[1] : *e.args[0]), bound.value.x);
             }
             case ExprOp::power: {
+                if (e.args[1]->op != ExprOp::constant || squarings(e.args[1]->value.x) < 0)
+                    needs_table(e);
                 Operand x = lower(*e.args[0]);
                 for (int k = squarings(e.args[1]->value.x); k > 0; --k) {
                     const double unit = x.unit * x.unit;
@@ -342,10 +344,13 @@ class Planner {
                 return x;
             }
             default:
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: needs a table, the machine has no dependent fetch",
-                                        e.line, e.column));
+                needs_table(e);
         }
+    }
+    [[noreturn]] static void needs_table(const Expr& e) {
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("{}:{}: needs a table, the machine has no dependent fetch", e.line,
+                                e.column));
     }
 
     Operand scalar_quantity(const Expr& e) {

@@ -83,10 +83,6 @@ TexelSource::TexelSource(const Material& material) : m_material(material) {
             throw Error(
                 ErrorCode::bad_program,
                 fmt::format("material '{}': {} is not two-dimensional", material.name, name));
-        if (is_hilo(map->format()) || format_class(map->format()) != TexelClass::unsigned_rgba)
-            throw Error(
-                ErrorCode::bad_program,
-                fmt::format("material '{}': {} is not of unsigned colours", material.name, name));
         m_varies = true;
         m_has_levels |= map->levels().size() > 1;
         const std::int64_t texels = static_cast<std::int64_t>(map->width()) * map->height();

@@ -28,8 +28,8 @@ struct TexelParameters {
 /// normal_map the normal t x b.
 class TexelSource {
   public:
-    /// Keeps the maps alive. Throws Error{bad_program} for a map that is not two-dimensional or
-    /// not of unsigned colours, and for one of tangent_map and bitangent_map alone.
+    /// Keeps the maps alive. Throws Error{bad_program} for a map that is not two-dimensional and
+    /// for one of tangent_map and bitangent_map alone.
     explicit TexelSource(const Material& material);
 
     /// 1 x 1 without maps.
