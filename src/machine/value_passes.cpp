@@ -64,10 +64,15 @@ struct Slice {
     std::set<int> values;  ///< to be computed
     std::set<int> own;     ///< units of the material
     std::set<int> frames;
+    std::set<int> framed;  ///< the values that are read from them
     std::set<TableRead> tables;
     std::set<int> stages;
     int missing_fetch = -1;  ///< a fetch whose coordinates no frame holds yet
 
+    /// What there is to do: units first.
+    [[nodiscard]] std::array<std::size_t, 3> size() const {
+        return {static_cast<std::size_t>(units()), stages.size(), values.size()};
+    }
     [[nodiscard]] int units() const {
         return static_cast<int>(own.size() + frames.size() + tables.size());
     }
@@ -189,6 +194,7 @@ class ValueSplitter {
             const Value& v = m_values[at(r.value)];
             if (v.frame >= 0 && r.value != again) {
                 slice.frames.insert(v.frame);
+                slice.framed.insert(r.value);
                 return;
             }
             if (v.output == kFetch) {
@@ -226,7 +232,7 @@ class ValueSplitter {
             if (fits(slice) && constants_agree(slice, final_combiner, wanted)) return true;
             // Of all values that a pass can leave, the one that leaves least to do.
             int best = -1;
-            auto least = std::pair(slice.units(), static_cast<int>(slice.stages.size()));
+            auto least = slice.size();
             const auto consider = [&](int id) {
                 Value& v = m_values[at(id)];
                 if (v.is_signed || v.frame >= 0) return;
@@ -235,14 +241,14 @@ class ValueSplitter {
                 v.frame = kSomeFrame;
                 const Slice rest = slice_of(wanted);
                 v.frame = -1;
-                const auto left = std::pair(rest.units(), static_cast<int>(rest.stages.size()));
-                if (left < least) {
-                    least = left;
+                if (rest.size() < least) {
+                    least = rest.size();
                     best = id;
                 }
             };
             for (const int id : slice.values) consider(id);
             for (const TableRead& table : slice.tables) consider(table.value);
+            if (best < 0 && share_frame(slice)) continue;
             if (best < 0) {
                 return fail(fmt::format(
                     "{} textures, {} tables, {} frames and {} stages are needed at once, with {} "
@@ -270,6 +276,33 @@ class ValueSplitter {
         if (!add_pass(keep, {{input, {part, id}}}, id)) return false;
         v.frame = static_cast<int>(m_passes.size()) - 1;
         return true;
+    }
+
+    /// Of a colour in one frame and a number in another's alpha, one frame. It is read as before.
+    bool share_frame(const Slice& slice) {
+        for (const int color : slice.framed) {
+            for (const int number : slice.framed) {
+                Value& c = m_values[at(color)];
+                Value& n = m_values[at(number)];
+                const RegisterPart rgb = part_of_value(c), alpha = part_of_value(n);
+                if (rgb.alpha || !alpha.alpha || c.frame == n.frame || c.output == kFetch) continue;
+                FinalCombiner keep;
+                keep.d.reg = rgb.reg;
+                keep.g.reg = alpha.reg;
+                const std::vector<Wanted> both{{&FinalCombiner::d, {rgb, color}},
+                                               {&FinalCombiner::g, {alpha, number}}};
+                // Only frames of their own become superfluous.
+                const auto alone = [&](int frame) {
+                    return std::ranges::count_if(slice.framed, [&](int id) {
+                               return m_values[at(id)].frame == frame;
+                           }) == 1;
+                };
+                if (!alone(c.frame) || !alone(n.frame) || !add_pass(keep, both)) continue;
+                c.frame = n.frame = static_cast<int>(m_passes.size()) - 1;
+                return true;
+            }
+        }
+        return false;
     }
 
     /// A pass that leaves the coordinates of a fetch: s in alpha, t in red.
@@ -469,49 +502,62 @@ class ValueSplitter {
         (v.output == 0 ? to.ab_out : v.output == 1 ? to.cd_out : to.third_out) = reg;
     }
 
-    /// The pair of constants of a pass, where the machine has no more.
-    struct Constants {
-        std::optional<glm::vec4> used[2];
-        bool agree = true;
+    /// The constants of a pass, where the machine has one pair for all stages.
+    class Constants {
+      public:
+        explicit Constants(const CombinerProgram& program) : m_program(program) {}
+
+        /// Which register `input` of a stage, or of the final combiner, finds its constant in.
+        Register place(const Input& input, const GeneralStage* s) {
+            if (input.reg != Register::const0 && input.reg != Register::const1) return input.reg;
+            const bool second = input.reg == Register::const1;
+            glm::vec4 value = second ? m_program.const1 : m_program.const0;
+            if (s != nullptr) value = (second ? s->const1 : s->const0).value_or(value);
+            const auto at = std::ranges::find(m_values, value);
+            const auto i = at - m_values.begin();
+            if (at == m_values.end()) m_values.push_back(value);
+            return i == 0 ? Register::const0 : Register::const1;
+        }
+        [[nodiscard]] bool fit() const { return m_values.size() <= 2; }
+        [[nodiscard]] glm::vec4 value(std::size_t i) const {
+            return i < m_values.size() ? m_values[i] : glm::vec4(0.0F);
+        }
+
+      private:
+        const CombinerProgram& m_program;
+        std::vector<glm::vec4> m_values;
     };
-    void use(const Input& i, const GeneralStage* s, Constants& constants) const {
-        if (i.reg != Register::const0 && i.reg != Register::const1) return;
-        const bool second = i.reg == Register::const1;
-        glm::vec4 value = second ? m_program.const1 : m_program.const0;
-        if (s != nullptr) value = (second ? s->const1 : s->const0).value_or(value);
-        std::optional<glm::vec4>& all = constants.used[second ? 1 : 0];
-        constants.agree &= !all || *all == value;
-        all = value;
-    }
 
     [[nodiscard]] bool constants_agree(const Slice& slice, const FinalCombiner& final_combiner,
                                        const std::vector<Wanted>& wanted) const {
         if (m_machine.stage_constants) return true;
-        Constants constants;
+        Constants constants(m_program);
         for (const int id : slice.values) {
             const Value& v = m_values[at(id)];
             for_each_input(portion(v), v.output,
-                           [&](const Input& i) { use(i, &stage(v.stage), constants); });
+                           [&](const Input& i) { constants.place(i, &stage(v.stage)); });
         }
-        for (const Wanted& w : wanted) use(final_combiner.*w.input, nullptr, constants);
-        return constants.agree;
+        for (const Wanted& w : wanted) constants.place(final_combiner.*w.input, nullptr);
+        return constants.fit();
     }
 
     bool set_constants(CombinerProgram& pass) {
         if (m_machine.stage_constants) return true;
-        Constants constants;
-        for (const GeneralStage& s : pass.stages) {
-            for (const Portion* p : {&s.rgb, &s.alpha}) {
-                for (const Input* i : {&p->a, &p->b, &p->c, &p->d}) use(*i, &s, constants);
+        Constants constants(m_program);
+        for (GeneralStage& s : pass.stages) {
+            for (Portion* p : {&s.rgb, &s.alpha}) {
+                for (Input* i : {&p->a, &p->b, &p->c, &p->d}) i->reg = constants.place(*i, &s);
             }
         }
-        for (const auto input : kFinalInputs) use(pass.final_combiner.*input, nullptr, constants);
-        if (!constants.agree) {
-            return fail(
-                "stages with different constants stand in one pass, and the machine has one pair");
+        for (const auto input : kFinalInputs) {
+            Input& i = pass.final_combiner.*input;
+            i.reg = constants.place(i, nullptr);
         }
-        pass.const0 = constants.used[0].value_or(glm::vec4(0.0F));
-        pass.const1 = constants.used[1].value_or(glm::vec4(0.0F));
+        if (!constants.fit()) {
+            return fail("a pass reads more than two constants, and the machine has one pair");
+        }
+        pass.const0 = constants.value(0);
+        pass.const1 = constants.value(1);
         for (GeneralStage& s : pass.stages) {
             s.const0.reset();
             s.const1.reset();
