@@ -146,18 +146,25 @@ class Planner {
     void scale_half_vector() {
         if (!m_task.scaled_half_vector) return;
         glm::dvec3 box(m_task.most_tilt);
-        bool any = false;
+        std::vector<glm::dvec3> axes;
         for (const auto& [e, reach] : m_reach) {
             if (e->op != ExprOp::dot || !is_half_vector(*e->args[0])) continue;
             const QuantityValues& q = m_task.quantities.at(e->args[1].get());
             if (!q.is_tangent) continue;
             box += reach * q.spread;
-            any = true;
+            axes.push_back(q.somewhere);
         }
         box *= m_task.varies ? 1.5 : 1.05;
-        if (!any) return;
+        // Along one axis alone, or two that are the same, nothing bounds the ellipse.
+        const bool bounded = std::any_of(axes.begin(), axes.end(), [&](const glm::dvec3& a) {
+            const glm::dvec3 across = glm::cross(axes.front(), a);
+            return glm::dot(across, across) >
+                   0.01 * glm::dot(axes.front(), axes.front()) * glm::dot(a, a);
+        });
+        if (!bounded) return;
         m_plan.half_scale = {std::max(1.0, 1.0 / box.x), std::max(1.0, 1.0 / box.y), 1.0};
     }
+
     // --- values ---------------------------------------------------------------------------------
 
     /// Whether an operand may be negative.
