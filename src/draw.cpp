@@ -160,20 +160,24 @@ std::vector<ProgramMaterial> programs_of(const Object& object, const Scene& scen
 
 ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t light,
                            DerivedMaps& maps) {
-    static const Material kDefault;
-    const Material& material = object.material ? *object.material : kDefault;
-    if (material.program) return *material.program;
+    static const auto kDefault = std::make_shared<const Material>();
+    const std::shared_ptr<const Material>& material = object.material ? object.material : kDefault;
+    if (material->program) return *material->program;
     if (!std::holds_alternative<Mesh>(object.geometry)) {
         throw Error(
             ErrorCode::bad_program,
             fmt::format(
                 "material '{}': a reflectance model needs a mesh, raw vertices need a program",
-                material.name));
+                material->name));
     }
     const Light source = light_of(scene, light);
-    return compile_abp_modified(material, scene.machine.for_programs(),
-                                source.color * source.intensity,
-                                light == 0 ? scene.ambient : glm::vec3(0.0F), maps);
+    const Machine machine = scene.machine.for_programs();
+    const glm::vec3 color = source.color * source.intensity;
+    const glm::vec3 ambient = light == 0 ? scene.ambient : glm::vec3(0.0F);
+    // Maps that were made for the talk's model are its material layer.
+    if (material->model == Model::abp_modified && material->tangent_map)
+        return compile_abp_modified(*material, machine, color, ambient, maps);
+    return maps.models.get(material, machine, color, ambient).program;
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {

@@ -12,6 +12,7 @@
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
 #include "raster/bin.hpp"
+#include "reference/render_double.hpp"
 #include "shade/normalisation_cube.hpp"
 #include "shade/packets.hpp"
 
@@ -45,6 +46,14 @@ struct Worker {
     std::uint64_t tiles = 0;
 };
 
+void require_machine(const Scene& scene, const char* shown) {
+    if (!scene.machine.double_precision) return;
+    throw Error(ErrorCode::bad_option,
+                fmt::format("{} with profile double, which delivers colours only; expected one of "
+                            "the machines",
+                            shown));
+}
+
 StoreFormat store_format(PixelFormat format) {
     return static_cast<StoreFormat>(format);
 }
@@ -55,7 +64,8 @@ struct Renderer::State {
     State(const RendererOptions& options)
         : kernels(select_table(options.isa)),
           pool(options.threads),
-          memory_cap(options.memory_cap) {}
+          memory_cap(options.memory_cap),
+          double_samples(options.double_samples) {}
 
     void prepare(const Scene& scene, const Framebuffer& target,
                  const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
@@ -71,6 +81,7 @@ struct Renderer::State {
     const KernelTable& kernels;
     WorkerPool pool;
     std::size_t memory_cap;
+    int double_samples;
 
     FrameView frame{};
     FrameSize size{};
@@ -100,15 +111,21 @@ int Renderer::threads() const noexcept {
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
+    if (scene.machine.double_precision) {
+        scene.machine.validate();
+        return render_double(scene, target, m_state->pool, {.samples = m_state->double_samples});
+    }
     return render_shown(scene, target, std::nullopt, std::nullopt);
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, const ShownRegister& shown) {
+    require_machine(scene, "a register");
     require_showable(shown.reg, scene.machine);
     return render_shown(scene, target, shown, std::nullopt);
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) {
+    require_machine(scene, "geometry");
     return render_shown(scene, target, std::nullopt, shown);
 }
 

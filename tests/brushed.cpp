@@ -1,4 +1,4 @@
-#include "models/brushed.hpp"
+#include "models/generators/brushed.hpp"
 
 #include <gtest/gtest.h>
 #include <burnish/error.hpp>

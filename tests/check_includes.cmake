@@ -50,18 +50,20 @@ rule("^src/" DENY "\"kernels/([^pskt]|simd)" "src/ sees the contract only")
 rule("^kernels/" DENY "^(<(burnish|glm|fmt)/|\"[^k])" "kernels see neither src/ nor GLM")
 
 # One direction: app -> pipeline -> raster, shade -> geometry -> image, mesh, machine -> core.
-rule("^src/app/" DENY "\"(geometry|image|io|kernels|machine|mesh|pipeline|program|raster|scene|shade|trace)[/.]"
+rule("^src/app/" DENY "\"(geometry|image|io|kernels|machine|mesh|pipeline|program|raster|reference|scene|shade|trace)[/.]"
   "the command is a user of the library")
-rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|program|raster|scene|shade|trace)[/.]"
+rule("^src/core/" DENY "\"(app|geometry|image|io|machine|mesh|models|pipeline|program|raster|reference|scene|shade|trace)[/.]"
   "core knows no stage")
-rule("^src/(image|mesh|machine|models|program|scene)/" DENY "\"(app|geometry|io|pipeline|raster|shade|trace)[/.]"
+rule("^src/(image|mesh|machine|models|program|scene)/" DENY "\"(app|geometry|io|pipeline|raster|reference|shade|trace)[/.]"
   "data knows no stage")
 rule("^src/program/" DENY "\"(image|kernels|machine|mesh|models|scene)[/.]"
   "text knows the public data only")
-rule("^src/io/" DENY "\"(app|geometry|kernels|pipeline|raster|shade|trace)[/.]" "files know no stage")
-rule("^src/geometry/" DENY "\"(app|io|pipeline|raster|shade|trace)[/.]" "later stage")
-rule("^src/raster/" DENY "\"(app|io|pipeline|shade|trace)[/.]" "only pipeline.cpp and src/trace know both")
-rule("^src/shade/" DENY "\"(app|io|pipeline|raster|trace)[/.]" "only pipeline.cpp and src/trace know both")
+rule("^src/io/" DENY "\"(app|geometry|kernels|pipeline|raster|reference|shade|trace)[/.]" "files know no stage")
+rule("^src/geometry/" DENY "\"(app|io|pipeline|raster|reference|shade|trace)[/.]" "later stage")
+rule("^src/raster/" DENY "\"(app|io|pipeline|reference|shade|trace)[/.]" "only pipeline.cpp and src/trace know both")
+rule("^src/shade/" DENY "\"(app|io|pipeline|raster|reference|trace)[/.]" "only pipeline.cpp and src/trace know both")
+rule("^src/reference/" DENY "\"(app|image|io|kernels|machine|mesh|pipeline|program|raster|shade|trace)[/.]"
+  "the double renderer shares scenes and the material layer, nothing that shades")
 rule("^src/(pipeline|draw)" DENY "\"(app|io|trace)/" "later stage")
 rule("^src/trace/" DENY "\"(app|io|pipeline)[/.]" "beside the renderer, above its stages")
 rule("." DENY "\"\\.\\.?/" "paths start at src/ or at the top")

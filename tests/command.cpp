@@ -220,6 +220,34 @@ vertices = [
     expect_failure("render s.toml --samples 16 --size 5000x4", 3, "4096");
 }
 
+TEST_F(Command, ProfileDoubleTakesManySamplesAndShowsColoursOnly) {
+    write(path("ball.toml"), R"(schema = 1
+[output]
+width = 32
+height = 32
+[[lights]]
+direction = [0, 0, 1]
+[[materials]]
+name = "m"
+model = "abp_modified"
+[[objects]]
+shape = "sphere"
+material = "m"
+)");
+    const std::string ball = "render ball.toml -o ball.png ";
+    ASSERT_EQ(run(ball + "--machine double").code, 0);
+    const Image8 one = load_image(path("ball.png"));
+    const Result many = run(ball + "--machine double --samples 400");
+    EXPECT_EQ(many.code, 0) << many.err;
+    EXPECT_SAYS(many.out, "double precision");
+    EXPECT_NE(load_image(path("ball.png")).rgba, one.rgba);
+    expect_failure(ball + "--samples 25", 2, "--samples 25, expected 1, 4, 9 or 16");
+    expect_failure(ball + "--machine double --samples 1089", 2, "a square, 1 .. 1024");
+    expect_failure(ball + "--machine double --aov uv", 3, "profile double");
+    expect_failure(ball + "--machine double --aov register:spare0", 3, "profile double");
+    expect_failure("trace ball.toml --machine double --pixel 3,3", 2, "profile double");
+}
+
 TEST_F(Command, BareMeshesAreFramedAndNoted) {
     ASSERT_EQ(run("bake mesh knot --columns 60 --rows 12 -o knot.ply").code, 0);
     const Result result = run("render knot.ply --size 64x48");
@@ -279,9 +307,9 @@ TEST_F(Command, BenchReportsOrderStatistics) {
 TEST_F(Command, InfoNamesWhatThereIs) {
     const Result json = run("info --json");
     EXPECT_EQ(json.code, 0);
-    EXPECT_SAYS(json.out, "\"profiles\": [\"geforce256\", \"nv2a\", \"ideal\"]");
+    EXPECT_SAYS(json.out, "\"profiles\": [\"geforce256\", \"nv2a\", \"ideal\", \"double\"]");
     EXPECT_SAYS(json.out, "\"reference\"");
-    EXPECT_SAYS(json.out, "\"models\": [\"abp_modified\"]");
+    EXPECT_SAYS(json.out, "\"models\": [\"blinn_phong\", \"abp\", \"abp_modified\",");
     EXPECT_SAYS(run("info").out, "burnish 0");
 }
 

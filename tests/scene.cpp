@@ -224,12 +224,22 @@ TEST_F(SceneFiles, VectorsOfAMachine) {
 
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
-    const std::string material = "[[materials]]\nname = \"m\"\n";
-    const std::vector<std::string> texts{
-        "[machine]\nprofile = \"double\"\n", "[machine]\nfilter_order = \"after\"\n",
-        texture + "mipmaps = \"toksvig\"\n", material + "normal_y = \"down\"\n"};
+    const std::vector<std::string> texts{"[machine]\nfilter_order = \"after\"\n",
+                                         texture + "mipmaps = \"toksvig\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
+}
+
+// What a scene says of its machine stays in the file when the double renderer draws it.
+TEST_F(SceneFiles, ProfileDoubleTakesTheKeysOfMachines) {
+    EXPECT_FALSE(scene("[machine]\nprofile = \"ideal\"\n").machine.double_precision);
+    const Machine machine =
+        scene("[machine]\nprofile = \"double\"\ntexture_units = 3\nproduct_rounding = \"shift8\"\n")
+            .machine;
+    EXPECT_TRUE(machine.double_precision);
+    EXPECT_EQ(machine.name, "double");
+    EXPECT_SAYS(bad("[machine]\nprofile = \"double\"\nhalf_vector = \"vertex\"\n"),
+                "half vectors of profile double");
 }
 
 TEST_F(SceneFiles, DefaultValuesOfSuchKeysAreAccepted) {
@@ -381,7 +391,7 @@ TEST_F(SceneFiles, MaterialErrors) {
         "[0,0,0,0]\n[[materials]]\nname = "
         "\"m\"\n";
     EXPECT_SAYS(bad(head + "model = \"wrd\"\n"),
-                "'model' = \"wrd\" in [[materials]], expected abp_modified");
+                "'model' = \"wrd\" in [[materials]], did you mean 'ward'?");
     EXPECT_SAYS(bad(head + "alpha_x = 0\n"), "expected a number above 0 and at most 1");
     EXPECT_SAYS(bad(head + "ks = [1, 1, 2]\n"), "value 2");
     EXPECT_SAYS(bad(head + "tangent_map = \"t\"\n"), "expected both or neither");

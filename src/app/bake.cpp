@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app/verbs.hpp"
-#include "models/brushed.hpp"
+#include "models/generators/brushed.hpp"
 
 namespace burnish::app {
 namespace {

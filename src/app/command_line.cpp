@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/framebuffer.hpp>
+#include <burnish/materials.hpp>
 #include <burnish/shapes.hpp>
 #include <charconv>
 #include <cmath>
@@ -155,6 +156,12 @@ Shown parse_aov(const std::string& text) {
                     text));
 }
 
+int root_of(int samples) {
+    for (int side = 1; side <= 32; ++side)
+        if (side * side == samples) return side;
+    fail(fmt::format("--samples {}, expected a square, 1 .. 1024", samples));
+}
+
 void add_aov(CLI::App& verb, std::optional<Shown>& shown) {
     verb.add_option_function<std::string>(
             "--aov", [&shown](const std::string& text) { shown = parse_aov(text); },
@@ -207,8 +214,19 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             [&picture](const std::string& name) {
                 picture.machine = known_word("--machine", name, machine_profile_names());
             },
-            "Machine profile: geforce256, nv2a or ideal")
+            "Machine profile: geforce256, nv2a or ideal; or double, formulas instead of a machine")
         ->type_name("PROFILE");
+    verb.add_option("--material", picture.material,
+                    "Material file (.toml) for every mesh, instead of its own")
+        ->type_name("FILE");
+    verb.add_option_function<std::string>(
+            "--model",
+            [&picture](const std::string& name) {
+                picture.model = model_named(name);
+                if (!picture.model) known_word("--model", name, model_names());
+            },
+            "Reflectance model of every mesh, instead of its material's; `burnish info` lists them")
+        ->type_name("NAME");
     verb.add_flag("--multipass", picture.multipass,
                   "Split programs that need more than the machine has into passes");
     verb.add_option_function<std::string>(
@@ -250,8 +268,9 @@ void add_render(CLI::App& verb, RenderOptions& options) {
     verb.add_option("-o,--output", options.output,
                     "Image file, PNG, EXR or other by extension; - writes PNG to standard output")
         ->type_name("FILE");
-    verb.add_option("--samples", options.samples, "Samples per pixel: 1, 4, 9 or 16")
-        ->check(CLI::IsMember({1, 4, 9, 16}))
+    verb.add_option_function<int>(
+            "--samples", [&options](int samples) { options.samples_side = root_of(samples); },
+            "Samples per pixel: 1, 4, 9 or 16; with profile double any square up to 1024")
         ->type_name("N");
     verb.add_option("--turntable", options.turntable,
                     "Pictures of one turn about the focal point; the output name holds {frame:4}")
@@ -325,6 +344,58 @@ void add_bake_brushed(CLI::App& verb, BakeBrushedOptions& options) {
         ->type_name("DIR-OR-PREFIX");
 }
 
+void add_bake_material(CLI::App& verb, BakeMaterialOptions& options) {
+    verb.add_option_function<std::string>(
+            "NAME",
+            [&options](const std::string& word) {
+                options.set = known_word("material", word, generated_set_names());
+            },
+            "brushed, lathe, cross_hatch, sunburst, orbital, corrosion, fingerprint or weave")
+        ->required()
+        ->type_name("");
+    verb.add_option("--seed", options.seed, "Another seed gives other marks")->type_name("N");
+    verb.add_option("--size", options.size, "Side of the square maps in texels")
+        ->check(CLI::Range(1, kMaxGeneratedSize))
+        ->type_name("N");
+    verb.add_option("-o,--output", options.output, "Directory, made if it is not there")
+        ->required()
+        ->type_name("DIR");
+}
+
+void add_bake_anisotropy(CLI::App& verb, BakeAnisotropyOptions& options) {
+    verb.add_option("--roughness", options.roughness, "glTF's roughnessFactor, default 1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("R");
+    verb.add_option("--strength", options.strength,
+                    "glTF's anisotropyStrength, default 0; with --texture 1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("S");
+    verb.add_option("--rotation", options.rotation,
+                    "glTF's anisotropyRotation: radians, against the clock, default 0")
+        ->check(CLI::Range(-1e3, 1e3))
+        ->type_name("RAD");
+    verb.add_option("--texture", options.texture, "glTF's anisotropyTexture")->type_name("FILE");
+    verb.add_option("--roughness-texture", options.roughness_texture,
+                    "glTF's metallicRoughnessTexture, of the same size")
+        ->type_name("FILE");
+    verb.add_option("--alpha-x", options.alpha_x, "Our width along the tangent, to glTF")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("A");
+    verb.add_option("--alpha-y", options.alpha_y, "Our width along the bitangent")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("A");
+    verb.add_option("--direction", options.direction,
+                    "Our tangent's angle from u: degrees, against the clock, default 0")
+        ->check(CLI::Range(-1e4, 1e4))
+        ->type_name("DEG");
+    verb.add_option("--material", options.material, "Material file, to textures of glTF")
+        ->type_name("FILE");
+    verb.add_option("-o,--output", options.output,
+                    "Directory for what textures or a material turn into")
+        ->type_name("DIR");
+    verb.add_flag("--json", options.json, "Print numbers as JSON");
+}
+
 /// The parser and what it fills. Nothing moves: the parser keeps references.
 struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
@@ -334,12 +405,18 @@ struct Parser {
     CompileOptions compile;
     InfoOptions info;
     BakeBrushedOptions brushed;
+    BakeMaterialOptions material;
+    BakeAnisotropyOptions anisotropy;
     BakeMeshOptions mesh;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
     CLI::App* trace_verb =
         app.add_subcommand("trace", "Every register after every stage at one pixel");
     CLI::App* bake_verb = app.add_subcommand("bake", "Material maps and test meshes as files");
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
+    CLI::App* material_verb = bake_verb->add_subcommand(
+        "material", "A generated material: maps, material file, true parameters");
+    CLI::App* anisotropy_verb =
+        bake_verb->add_subcommand("anisotropy", "KHR_materials_anisotropy to our widths, and back");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
     CLI::App* compile_verb = app.add_subcommand("compile", "Checks and prints program texts");
@@ -356,6 +433,8 @@ struct Parser {
         add_compile(*compile_verb, compile);
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
+        add_bake_material(*material_verb, material);
+        add_bake_anisotropy(*anisotropy_verb, anisotropy);
         add_bake_mesh(*mesh_verb, mesh);
     }
 
@@ -366,6 +445,8 @@ struct Parser {
         if (compile_verb->parsed()) return compile;
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
+        if (material_verb->parsed()) return material;
+        if (anisotropy_verb->parsed()) return anisotropy;
         return mesh;
     }
 };

@@ -27,6 +27,8 @@ struct PictureOptions {
     std::vector<std::string> overrides;  ///< -D
     std::optional<glm::ivec2> size;
     std::optional<std::string> machine;
+    std::filesystem::path material;  ///< instead of the meshes' own, if not empty
+    std::optional<Model> model;      ///< instead of the materials' own
     bool multipass = false;
     std::optional<std::string> half_vector;  ///< of choose_half_vector
     CameraOptions camera;
@@ -45,9 +47,9 @@ using Shown = std::variant<ShownRegister, Aov>;
 
 struct RenderOptions {
     PictureOptions picture;
-    std::string output;  ///< empty: the input's stem + ".png"; "-": standard output
-    int samples = 1;     ///< per pixel: a square number
-    int turntable = 0;   ///< frames of one turn; 0: a single picture
+    std::string output;    ///< empty: the input's stem + ".png"; "-": standard output
+    int samples_side = 1;  ///< samples per pixel: its square
+    int turntable = 0;     ///< frames of one turn; 0: a single picture
     StatsFormat stats = StatsFormat::none;
     std::optional<Shown> shown;  ///< --aov
 };
@@ -81,6 +83,24 @@ struct BakeBrushedOptions {
     std::filesystem::path output;  ///< a directory, or what the four names begin with
 };
 
+struct BakeMaterialOptions {
+    std::string set;  ///< one of generated_set_names()
+    std::uint32_t seed = 1;
+    int size = 512;
+    std::filesystem::path output;  ///< a directory, made if need be
+};
+
+/// One of three sources: what glTF says, as numbers or textures; two widths; a material file.
+struct BakeAnisotropyOptions {
+    std::optional<double> roughness, strength, rotation;  ///< glTF's factors; radians
+    std::filesystem::path texture;                        ///< anisotropyTexture
+    std::filesystem::path roughness_texture;              ///< metallicRoughnessTexture
+    std::optional<double> alpha_x, alpha_y, direction;    ///< degrees
+    std::filesystem::path material;
+    std::filesystem::path output;  ///< a directory, made if need be; of textures and materials
+    bool json = false;             ///< of numbers
+};
+
 struct BakeMeshOptions {
     std::string shape;
     int columns = 64;  ///< of the grid; segments along the knot
@@ -93,8 +113,9 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                             InfoOptions, BakeBrushedOptions, BakeMeshOptions>;
+using Command =
+    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions, InfoOptions,
+                 BakeBrushedOptions, BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

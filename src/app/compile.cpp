@@ -73,6 +73,7 @@ void run(const CompileOptions& options) {
                       shader.program,
                       {}};
     for (const std::string_view profile : machine_profile_names()) {
+        if (machine_profile(profile).double_precision) continue;  // runs no programs
         ProfileVerdict& verdict = compiled.profiles.emplace_back();
         verdict.profile = profile;
         verdict.complaint = complaint(compiled, profile);

@@ -4,7 +4,10 @@
 
 #include <burnish/error.hpp>
 #include <cstdio>
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
 
 namespace burnish::app {
 namespace {
@@ -64,6 +67,31 @@ void apply_camera(const CameraOptions& options, Camera& camera) {
     if (options.elevation != 0.0F) camera = raised(camera, options.elevation);
 }
 
+/// What --material and --model ask for, of every object that is a mesh.
+void replace_materials(const PictureOptions& options, Scene& scene) {
+    std::shared_ptr<const Material> replacement;
+    if (!options.material.empty())
+        replacement = std::make_shared<const Material>(load_material(options.material));
+    std::map<const Material*, std::shared_ptr<const Material>> changed;
+    for (Object& object : scene.objects) {
+        if (!std::holds_alternative<Mesh>(object.geometry)) continue;
+        if (replacement) object.material = replacement;
+        if (!options.model) continue;
+        if (object.material && object.material->program)
+            throw Error(ErrorCode::bad_option,
+                        fmt::format("--model: material '{}' is a pipeline, expected one with a "
+                                    "reflectance model",
+                                    object.material->name));
+        std::shared_ptr<const Material>& copy = changed[object.material.get()];
+        if (!copy) {
+            Material material = object.material ? *object.material : Material{};
+            material.model = *options.model;
+            copy = std::make_shared<const Material>(std::move(material));
+        }
+        object.material = copy;
+    }
+}
+
 /// Texture units that are off, once per material.
 void print_unit_problems(const Scene& scene) {
     std::set<const Material*> seen;
@@ -99,6 +127,7 @@ Scene load_picture(const PictureOptions& options) {
     Scene& scene = loaded.scene;
     if (options.machine && !is_scene(options.input))
         scene.machine = machine_profile(*options.machine);
+    replace_materials(options, scene);
     if (options.multipass) scene.machine.multipass = true;
     if (options.half_vector) choose_half_vector(scene.machine, *options.half_vector);
     if (options.size) {
@@ -113,10 +142,11 @@ Scene load_picture(const PictureOptions& options) {
     return std::move(loaded.scene);
 }
 
-Renderer make_renderer(const PictureOptions& options) {
+Renderer make_renderer(const PictureOptions& options, int double_samples) {
     RendererOptions renderer;
     renderer.threads = options.threads;
     renderer.isa = options.isa;
+    renderer.double_samples = double_samples;
     return Renderer(renderer);
 }
 

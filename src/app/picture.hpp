@@ -12,7 +12,8 @@ namespace burnish::app {
 Scene load_picture(const PictureOptions& options);
 
 /// Throws Error{bad_option} for an ISA that is not there, before any file is read.
-Renderer make_renderer(const PictureOptions& options);
+/// `double_samples`: as in RendererOptions.
+Renderer make_renderer(const PictureOptions& options, int double_samples = 1);
 
 /// Renders; what the scene cannot do counts as bad input, not as wrong usage.
 FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,

@@ -41,9 +41,15 @@ PixelFormat frame_format(const RenderOptions& options, const Scene& scene,
     return options.shown && floats ? PixelFormat::rgba32f : scene.format;
 }
 
-int samples_side(int samples) {
-    int side = 1;
-    while (side * side < samples) ++side;
+/// How many times larger a picture is drawn to be averaged. The double renderer takes its samples
+/// itself.
+int enlargement(const RenderOptions& options, const Scene& scene) {
+    if (scene.machine.double_precision) return 1;
+    const int side = options.samples_side;
+    if (side > 4)
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("--samples {}, expected 1, 4, 9 or 16 with machine {}", side * side,
+                                scene.machine.name));
     return side;
 }
 
@@ -76,7 +82,8 @@ class Progress {
 
 /// The lines that tell what was done. They leave standard output to data when there is any.
 void report(const RenderOptions& options, const std::string& name, const Framebuffer& frame,
-            const FrameStats& stats, const Renderer& renderer, double frame_ms) {
+            const FrameStats& stats, const Renderer& renderer, bool double_precision,
+            double frame_ms) {
     const bool data_on_stdout = name == "-" || options.stats == StatsFormat::json;
     std::FILE* stats_stream = name == "-" ? stderr : stdout;
     if (options.stats == StatsFormat::json)
@@ -84,7 +91,8 @@ void report(const RenderOptions& options, const std::string& name, const Framebu
     if (!options.picture.quiet)
         fmt::print(data_on_stdout ? stderr : stdout, "{}: {} x {}, {:.2f} ms, {}, {} thread{}\n",
                    name == "-" ? "standard output" : name, frame.width(), frame.height(), frame_ms,
-                   renderer.isa(), renderer.threads(), renderer.threads() == 1 ? "" : "s");
+                   double_precision ? "double precision" : renderer.isa(), renderer.threads(),
+                   renderer.threads() == 1 ? "" : "s");
     if (options.stats == StatsFormat::text || options.picture.verbose)
         fmt::print(data_on_stdout ? stderr : stats_stream, "{}",
                    stats_text(stats, renderer, frame_ms));
@@ -95,9 +103,9 @@ void report(const RenderOptions& options, const std::string& name, const Framebu
 void run(const RenderOptions& options) {
     const std::string pattern = output_pattern(options);
     numbered_name(pattern, 0);
-    Renderer renderer = make_renderer(options.picture);
+    Renderer renderer = make_renderer(options.picture, options.samples_side * options.samples_side);
     const Scene scene = load_picture(options.picture);
-    const int side = samples_side(options.samples);
+    const int side = enlargement(options, scene);
     const int frames = options.turntable > 0 ? options.turntable : 1;
     Framebuffer frame(scene.width, scene.height, frame_format(options, scene, pattern));
     Progress progress(frames, options.picture.quiet);
@@ -112,7 +120,9 @@ void run(const RenderOptions& options) {
         const std::string name = numbered_name(pattern, i);
         save_image(frame, name);
         progress.done(i + 1);
-        if (i + 1 == frames) report(options, pattern, frame, stats, renderer, frame_ms);
+        if (i + 1 == frames)
+            report(options, pattern, frame, stats, renderer, scene.machine.double_precision,
+                   frame_ms);
     }
 }
 

@@ -26,6 +26,8 @@ void run(const BenchOptions& options);
 void run(const CompileOptions& options);
 void run(const InfoOptions& options);
 void run(const BakeBrushedOptions& options);
+void run(const BakeMaterialOptions& options);
+void run(const BakeAnisotropyOptions& options);
 void run(const BakeMeshOptions& options);
 
 }  // namespace burnish::app

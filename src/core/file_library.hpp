@@ -12,8 +12,10 @@ struct FileLibrary {
     Image8 (*load_image)(const std::filesystem::path&);
     void (*save_frame)(const Framebuffer&, const std::filesystem::path&);
     void (*save_image)(const Image8&, const std::filesystem::path&);
+    void (*save_text)(std::string_view, const std::filesystem::path&);
     void (*save_mesh)(const MeshData&, const std::filesystem::path&);
     LoadedScene (*load_scene)(const std::filesystem::path&, const std::vector<std::string>&);
+    Material (*load_material)(const std::filesystem::path&);
     LoadedScene (*scene_for_mesh)(const std::filesystem::path&);
 };
 

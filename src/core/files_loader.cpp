@@ -59,6 +59,10 @@ void save_image(const Image8& image, const std::filesystem::path& path) {
     library().save_image(image, path);
 }
 
+void save_text(std::string_view text, const std::filesystem::path& path) {
+    library().save_text(text, path);
+}
+
 void save_mesh(const MeshData& mesh, const std::filesystem::path& path) {
     library().save_mesh(mesh, path);
 }
@@ -66,6 +70,10 @@ void save_mesh(const MeshData& mesh, const std::filesystem::path& path) {
 LoadedScene load_scene(const std::filesystem::path& path,
                        const std::vector<std::string>& overrides) {
     return library().load_scene(path, overrides);
+}
+
+Material load_material(const std::filesystem::path& path) {
+    return library().load_material(path);
 }
 
 LoadedScene scene_for_mesh(const std::filesystem::path& path) {

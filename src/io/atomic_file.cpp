@@ -67,6 +67,12 @@ void AtomicFile::commit() {
     m_committed = true;
 }
 
+void write_text_file(std::string_view text, const std::filesystem::path& path) {
+    AtomicFile file(path);
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+}
+
 void write_all(int descriptor, std::span<const std::byte> bytes, const std::string& name) {
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace burnish {
 
@@ -32,6 +33,9 @@ class AtomicFile {
     std::filesystem::path m_temporary;
     bool m_committed = false;
 };
+
+/// Writes a whole file, as save_text promises.
+void write_text_file(std::string_view text, const std::filesystem::path& path);
 
 /// Writes every byte to a file descriptor. Throws Error{io} that calls the file `name`.
 void write_all(int descriptor, std::span<const std::byte> bytes, const std::string& name);

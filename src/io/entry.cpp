@@ -1,4 +1,5 @@
 #include "core/file_library.hpp"
+#include "io/atomic_file.hpp"
 #include "io/image_io.hpp"
 #include "io/read_mesh.hpp"
 #include "io/scene_io.hpp"
@@ -11,8 +12,10 @@ extern "C" const burnish::FileLibrary* burnish_file_library() {
         .load_image = burnish::read_image_file,
         .save_frame = burnish::write_frame_file,
         .save_image = burnish::write_image_file,
+        .save_text = burnish::write_text_file,
         .save_mesh = burnish::write_mesh_file,
         .load_scene = burnish::read_scene_file,
+        .load_material = burnish::read_material_file,
         .scene_for_mesh = burnish::scene_for_mesh_file,
     };
     return &kLibrary;

@@ -52,9 +52,6 @@ void read_output(const toml::table& table, Scene& scene) {
 
 Machine read_profile(const Section& section) {
     const std::string name = section.text("profile").value_or("ideal");
-    if (name == "double")
-        section.fail("profile",
-                     "'profile' = \"double\" in [machine] is not supported in this version");
     const std::vector<std::string_view> known = machine_profile_names();
     if (std::find(known.begin(), known.end(), name) == known.end())
         section.fail_unknown_word("profile", name, known);
@@ -151,14 +148,6 @@ Light read_light(const toml::table& table) {
     return light;
 }
 
-void require_schema(const Section& root) {
-    if (!root.has("schema")) root.fail("schema", "no 'schema' key, expected schema = 1");
-    if (root.integer("schema", 0, std::numeric_limits<int>::max()) != 1)
-        root.fail("schema",
-                  fmt::format("'schema' = {}, expected 1, the one that this version reads",
-                              root.integer("schema", 0, std::numeric_limits<int>::max()).value()));
-}
-
 LoadedScene interpret(const toml::table& table, const std::filesystem::path& directory) {
     const Section root(table, "the scene",
                        {"schema", "output", "machine", "camera", "lights", "ambient", "textures",
@@ -180,6 +169,14 @@ LoadedScene interpret(const toml::table& table, const std::filesystem::path& dir
 
 }  // namespace
 
+void require_schema(const Section& root) {
+    if (!root.has("schema")) root.fail("schema", "no 'schema' key, expected schema = 1");
+    if (root.integer("schema", 0, std::numeric_limits<int>::max()) != 1)
+        root.fail("schema",
+                  fmt::format("'schema' = {}, expected 1, the one that this version reads",
+                              root.integer("schema", 0, std::numeric_limits<int>::max()).value()));
+}
+
 LoadedScene read_scene_file(const std::filesystem::path& path,
                             const std::vector<std::string>& overrides) {
     const toml::table table = parse_scene(path, overrides);
@@ -188,6 +185,14 @@ LoadedScene read_scene_file(const std::filesystem::path& path,
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::limit, path.string() + ": too large for the memory");
     }
+}
+
+Material read_material_file(const std::filesystem::path& path) {
+    const toml::table table = parse_scene(path, {});
+    const Section root(table, "the material file", {"schema", "textures", "material"});
+    require_schema(root);
+    const std::filesystem::path directory = path.parent_path();
+    return read_one_material(root, read_textures(root, directory), path);
 }
 
 LoadedScene scene_for_mesh_file(const std::filesystem::path& path) {

@@ -2,21 +2,65 @@
 
 #include <algorithm>
 #include <array>
+#include <burnish/error.hpp>
 #include <burnish/materials.hpp>
+#include <span>
 #include <utility>
 
 #include "core/nearest.hpp"
+#include "io/scene_io.hpp"
 #include "io/scene_io_parts.hpp"
 
 namespace burnish {
 namespace {
 
-void refuse_unsupported(const Section& section) {
-    section.accept_only("normal_y", "up");
-}
+constexpr std::array<std::string_view, 40> kKeys{"name",
+                                                 "model",
+                                                 "model_text",
+                                                 "kd",
+                                                 "ks",
+                                                 "alpha_x",
+                                                 "alpha_y",
+                                                 "exponent",
+                                                 "N",
+                                                 "nu",
+                                                 "nv",
+                                                 "normal_map",
+                                                 "direction",
+                                                 "direction_map",
+                                                 "tangent_map",
+                                                 "bitangent_map",
+                                                 "map_scale",
+                                                 "specular_map",
+                                                 "encoding",
+                                                 "normal_y",
+                                                 "srgb_colors",
+                                                 "generator",
+                                                 "seed",
+                                                 "size",
+                                                 "alpha_test",
+                                                 "alpha_ref",
+                                                 "units",
+                                                 "inputs",
+                                                 "combiners",
+                                                 "combiners_text",
+                                                 "texture_shader",
+                                                 "texture_shader_text",
+                                                 "const0",
+                                                 "const1",
+                                                 "const0_bytes",
+                                                 "const1_bytes",
+                                                 "fog",
+                                                 "clamp_color_sum",
+                                                 "hardware",
+                                                 "file"};
+/// Those of a material file, which does not refer to another one.
+constexpr std::span<const std::string_view> kFileKeys(kKeys.data(), kKeys.size() - 1);
 
-AlphaTest read_alpha_test(const Section& section) {
-    AlphaTest test;
+/// Those of read_reflectance().
+constexpr std::span<const std::string_view> kReflectanceKeys(kKeys.data() + 1, 20);
+
+AlphaTest read_alpha_test(const Section& section, AlphaTest test) {
     test.reference = section.number("alpha_ref", kUnit).value_or(test.reference);
     std::array<std::pair<std::string_view, Comparison>, kComparisons.size() + 1> names{
         {{"off", Comparison::always}}};
@@ -25,47 +69,60 @@ AlphaTest read_alpha_test(const Section& section) {
     return test;
 }
 
-Model read_model(const Section& section) {
-    const std::string name = section.text("model").value();
-    const std::optional<Model> model = model_named(name);
-    if (!model) section.fail_unknown_word("model", name, model_names());
-    return *model;
+Material referenced_material(const Section& section, const std::filesystem::path& directory) {
+    try {
+        return read_material_file(directory / section.required_text("file"));
+    } catch (const Error& error) {
+        throw Error(error.code(), section.place("file") + ": " + error.what());
+    }
 }
 
-/// The two maps belong together: both hold vectors scaled by the same m.
-void read_vector_maps(const Section& section, const TextureTable& textures, Material& material) {
-    const auto tangent = texture_of(section, "tangent_map", textures);
-    const auto bitangent = texture_of(section, "bitangent_map", textures);
-    if (tangent.has_value() != bitangent.has_value())
-        section.fail(tangent ? "tangent_map" : "bitangent_map",
-                     fmt::format("{} has one of tangent_map and bitangent_map, expected both or "
-                                 "neither",
-                                 section.label()));
-    if (!tangent) return section.refuse_without("map_scale", "tangent_map");
-    material.tangent_map = tangent->texture;
-    material.bitangent_map = bitangent->texture;
-    const bool same_set = tangent->map_scale == bitangent->map_scale;
-    const float known = same_set ? tangent->map_scale : 0.0F;
-    material.map_scale = section.number("map_scale", {0.0, 1.0}).value_or(known);
-    const float m = material.map_scale;
-    if (m != 1.0F && m != 0.5F && m != 0.25F && m != 0.125F)
-        section.fail("map_scale",
-                     fmt::format("'map_scale' = {} in {}, expected 1, 0.5, 0.25 or 0.125: "
-                                 "what the vectors in its maps were multiplied with",
-                                 m, section.label()));
+/// What the other keys change: a default, another file's material, or a generated one.
+Material read_base(const Section& section, const std::filesystem::path& directory) {
+    if (section.has("file") && section.has("generator"))
+        section.fail("file", fmt::format("{} has both 'file' and 'generator', expected one",
+                                         section.label()));
+    if (section.has("file")) return referenced_material(section, directory);
+    for (const std::string_view key : {"seed", "size"}) section.refuse_without(key, "generator");
+    const std::optional<std::string> generator = section.text("generator");
+    if (!generator) return {};
+    const std::vector<std::string_view> known = generated_set_names();
+    if (std::find(known.begin(), known.end(), *generator) == known.end())
+        section.fail_unknown_word("generator", *generator, known);
+    const SetKey key = read_set_key(section, kMaxGeneratedSize);
+    return generated_material(*generator, key.seed, key.size);
 }
 
-void read_reflectance(const Section& section, const TextureTable& textures, Material& material) {
-    constexpr Range kWidth{.low = 0.0, .high = 1.0, .open_low = true};
-    material.kd = section.vec3("kd", kUnit).value_or(material.kd);
-    material.ks = section.vec3("ks", kUnit).value_or(material.ks);
-    material.alpha_x = section.number("alpha_x", kWidth).value_or(material.alpha_x);
-    material.alpha_y = section.number("alpha_y", kWidth).value_or(material.alpha_y);
-    if (const auto map = texture_of(section, "normal_map", textures))
-        material.normal_map = map->texture;
-    if (const auto map = texture_of(section, "specular_map", textures))
-        material.specular_map = map->texture;
-    read_vector_maps(section, textures, material);
+Material read_material(const Section& section, const TextureTable& textures,
+                       const std::filesystem::path& directory) {
+    for (const std::string_view pipeline : {"units", "combiners", "combiners_text"}) {
+        for (const std::string_view key : {"model", "model_text", "generator", "file"}) {
+            if (section.has(pipeline) && section.has(key))
+                section.fail(pipeline, fmt::format("{} has both '{}' and '{}', expected one: a "
+                                                   "pipeline or a model",
+                                                   section.label(), pipeline, key));
+        }
+    }
+    section.refuse_without("alpha_ref", "alpha_test");
+    Material material = read_base(section, directory);
+    material.alpha_test = read_alpha_test(section, material.alpha_test);
+    if (std::optional<ProgramMaterial> program = read_program(section, textures, directory))
+        material.program = std::move(program);
+    if (!material.program) {
+        read_reflectance(section, textures, material);
+        return material;
+    }
+    for (const std::string_view key : kReflectanceKeys) {
+        if (section.has("file") && section.has(key))
+            section.fail(key, fmt::format("'{}' in {} changes a model, and '{}' is a pipeline", key,
+                                          section.label(), *section.text("file")));
+    }
+    return material;
+}
+
+bool names_pipeline(const Section& section, const Material& material) {
+    return material.program || section.has("model") || section.has("model_text") ||
+           section.has("generator") || section.has("file");
 }
 
 }  // namespace
@@ -74,55 +131,26 @@ MaterialTable read_materials(const Section& root, const TextureTable& textures,
                              const std::filesystem::path& directory) {
     MaterialTable materials;
     for (const toml::table* table : root.tables("materials")) {
-        const Section section(*table, "[[materials]]",
-                              {"name",
-                               "model",
-                               "kd",
-                               "ks",
-                               "alpha_x",
-                               "alpha_y",
-                               "normal_map",
-                               "tangent_map",
-                               "bitangent_map",
-                               "map_scale",
-                               "specular_map",
-                               "normal_y",
-                               "alpha_test",
-                               "alpha_ref",
-                               "units",
-                               "inputs",
-                               "combiners",
-                               "combiners_text",
-                               "texture_shader",
-                               "texture_shader_text",
-                               "const0",
-                               "const1",
-                               "const0_bytes",
-                               "const1_bytes",
-                               "fog",
-                               "clamp_color_sum",
-                               "hardware"});
-        Material material;
-        material.name = section.required_text("name");
-        require_new_name(section, materials, material.name);
-        refuse_unsupported(section);
-        for (const std::string_view key : {"units", "combiners", "combiners_text"}) {
-            if (section.has(key) && section.has("model"))
-                section.fail(key, fmt::format("[[materials]] has both '{}' and 'model', expected "
-                                              "one: a pipeline or a model",
-                                              key));
-        }
-        section.refuse_without("alpha_ref", "alpha_test");
-        material.alpha_test = read_alpha_test(section);
-        if (section.has("model")) material.model = read_model(section);
-        material.program = read_program(section, textures, directory);
-        if (!material.program) read_reflectance(section, textures, material);
-        const bool names_pipeline = material.program || section.has("model");
-        const std::string name = material.name;
-        materials.emplace(name, NamedMaterial{std::make_shared<const Material>(std::move(material)),
-                                              names_pipeline});
+        const Section section(*table, "[[materials]]", kKeys);
+        const std::string name = section.required_text("name");
+        require_new_name(section, materials, name);
+        Material material = read_material(section, textures, directory);
+        material.name = name;
+        const bool named = names_pipeline(section, material);
+        materials.emplace(
+            name, NamedMaterial{std::make_shared<const Material>(std::move(material)), named});
     }
     return materials;
+}
+
+Material read_one_material(const Section& root, const TextureTable& textures,
+                           const std::filesystem::path& path) {
+    const toml::table* table = root.table("material");
+    if (table == nullptr) root.fail("material", "no [material] table, expected one");
+    const Section section(*table, "[material]", kFileKeys);
+    Material material = read_material(section, textures, path.parent_path());
+    material.name = section.text("name").value_or(path.stem().string());
+    return material;
 }
 
 }  // namespace burnish

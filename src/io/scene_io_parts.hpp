@@ -2,6 +2,9 @@
 
 #include <array>
 #include <burnish/files.hpp>
+#include <burnish/materials.hpp>
+#include <compare>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -29,11 +32,21 @@ inline constexpr std::array<std::pair<std::string_view, Comparison>, 8> kCompari
 struct NamedTexture {
     TexturePtr texture;
     float map_scale = 0.0F;  ///< m of a generated tangent or bitangent map, else 0
+    /// What alpha_x, alpha_y and exponent mean in the channels r, g, b of a generated alpha map.
+    std::optional<std::array<CodedRange, 3>> ranges{};
 };
 using TextureTable = std::map<std::string, NamedTexture, std::less<>>;
 
 /// Reads every [[textures]] table; files are relative to `directory`.
 TextureTable read_textures(const Section& root, const std::filesystem::path& directory);
+
+/// A square set's seed and side, from `seed` and `size` or `width` and `height`.
+struct SetKey {
+    std::uint32_t seed;
+    int size;
+    auto operator<=>(const SetKey&) const = default;
+};
+SetKey read_set_key(const Section& section, int largest);
 
 /// The texture that `key` names; nothing for a missing key, an error for an unknown name.
 std::optional<NamedTexture> texture_of(const Section& section, std::string_view key,
@@ -49,6 +62,13 @@ using MaterialTable = std::map<std::string, NamedMaterial, std::less<>>;
 MaterialTable read_materials(const Section& root, const TextureTable& textures,
                              const std::filesystem::path& directory);
 
+/// Reads the [material] table of a material file, whose name is that of the file if it has none.
+Material read_one_material(const Section& root, const TextureTable& textures,
+                           const std::filesystem::path& path);
+
+/// Reads the keys of a reflectance model onto a material; those that are missing leave it as it is.
+void read_reflectance(const Section& section, const TextureTable& textures, Material& material);
+
 /// The pipeline of a material with `units` or `combiners`; nothing if it has neither.
 std::optional<ProgramMaterial> read_program(const Section& section, const TextureTable& textures,
                                             const std::filesystem::path& directory);
@@ -56,6 +76,9 @@ std::optional<ProgramMaterial> read_program(const Section& section, const Textur
 /// The pipeline of materials that bring textures or vertex colours but no model: colour times the
 /// texel of unit 0, if it has a texture; alpha from the colour.
 ProgramMaterial vertex_color_program(std::vector<TexturePtr> units);
+
+/// Throws Error{bad_input} unless `schema` is the one that this version reads.
+void require_schema(const Section& root);
 
 /// Reads every [[objects]] table in order. Lines about meshes go to `notes`.
 std::vector<Object> read_objects(const Section& root, const MaterialTable& materials,

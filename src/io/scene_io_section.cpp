@@ -53,12 +53,12 @@ void fail_at(const toml::node& node, const std::string& message) {
 }
 
 Section::Section(const toml::table& table, std::string label,
-                 std::initializer_list<std::string_view> keys)
+                 std::span<const std::string_view> keys)
     : m_table(&table), m_label(std::move(label)) {
     for (const auto& [key, node] : table) {
         if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
         fail_at(node, fmt::format("unknown key '{}' in {}, {}", key.str(), m_label,
-                                  expected_one_of(key.str(), {keys.begin(), keys.size()})));
+                                  expected_one_of(key.str(), keys)));
     }
 }
 
@@ -194,6 +194,16 @@ std::optional<std::vector<std::string>> Section::texts(std::string_view key) con
 bool Section::has_table(std::string_view key) const {
     const toml::node* node = find(key);
     return node != nullptr && node->is_table();
+}
+
+bool Section::has_text(std::string_view key) const {
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_string();
+}
+
+bool Section::has_number(std::string_view key) const {
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_number();
 }
 
 const toml::table* Section::table(std::string_view key) const {

@@ -43,10 +43,14 @@ class Section {
     /// `label` is how messages call the table, e.g. "[output]". A key that is not in `keys` is an
     /// error that names the nearest one that is.
     Section(const toml::table& table, std::string label,
-            std::initializer_list<std::string_view> keys);
+            std::initializer_list<std::string_view> keys)
+        : Section(table, std::move(label), std::span(keys.begin(), keys.size())) {}
+    Section(const toml::table& table, std::string label, std::span<const std::string_view> keys);
 
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool has_table(std::string_view key) const;
+    [[nodiscard]] bool has_text(std::string_view key) const;
+    [[nodiscard]] bool has_number(std::string_view key) const;
     [[nodiscard]] const std::string& label() const { return m_label; }
     /// "FILE:LINE" of a key, or of the table if the key is missing.
     [[nodiscard]] std::string place(std::string_view key) const;

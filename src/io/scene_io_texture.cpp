@@ -12,7 +12,7 @@
 #include "core/nearest.hpp"
 #include "io/image_io.hpp"
 #include "io/scene_io_parts.hpp"
-#include "models/brushed.hpp"
+#include "models/generators/brushed.hpp"
 
 namespace burnish {
 namespace {
@@ -71,8 +71,19 @@ constexpr std::array<std::pair<std::string_view, BrushedMap>, 4> kBrushedMaps{
      {"bitangent", &BrushedMaps::bitangent},
      {"specular", &BrushedMaps::specular}}};
 
+using SetMap = Image8 GeneratedSet::*;
+constexpr std::array<std::pair<std::string_view, SetMap>, 5> kSetMaps{
+    {{"normal", &GeneratedSet::normal_map},
+     {"direction", &GeneratedSet::direction_map},
+     {"alpha", &GeneratedSet::alpha_map},
+     {"kd", &GeneratedSet::kd_map},
+     {"ks", &GeneratedSet::ks_map}}};
+
 /// Generated maps come in sets; each set is made once per scene.
-using BrushedSets = std::map<std::pair<std::uint32_t, int>, BrushedMaps>;
+struct GeneratedSets {
+    std::map<SetKey, BrushedMaps> brushed;
+    std::map<std::pair<std::string, SetKey>, GeneratedSet> others;
+};
 
 Wrap wrap_named(const Section& section, const std::string& name) {
     std::vector<std::string_view> known;
@@ -235,8 +246,21 @@ NamedTexture read_images(const Section& section, TextureDescription description,
     }
 }
 
+NamedTexture read_brushed(const Section& section, const TextureDescription& description,
+                          GeneratedSets& sets) {
+    const BrushedMap map =
+        section.choice<BrushedMap>("map", kBrushedMaps).value_or(&BrushedMaps::normal);
+    const SetKey key = read_set_key(section, 4096);
+    auto set = sets.brushed.find(key);
+    if (set == sets.brushed.end())
+        set = sets.brushed.emplace(key, brushed_maps(key.seed, key.size)).first;
+    const bool vectors = map == &BrushedMaps::tangent || map == &BrushedMaps::bitangent;
+    return {std::make_shared<const Texture>(std::span(&(set->second.*map), 1), description),
+            vectors ? set->second.map_scale : 0.0F};
+}
+
 NamedTexture read_generated(const Section& section, TextureDescription description,
-                            MipmapSource mipmaps, BrushedSets& sets) {
+                            MipmapSource mipmaps, GeneratedSets& sets) {
     const auto only = [&](bool fits, const char* key, const char* expected) {
         if (!fits)
             section.fail(key, fmt::format("'{}' in {}, expected {} for a generated map", key,
@@ -246,23 +270,26 @@ NamedTexture read_generated(const Section& section, TextureDescription descripti
     only(description.target == TextureTarget::two_d, "target", "2d");
     only(mipmaps != MipmapSource::files, "mipmaps", "none or box");
     description.box_mipmaps = mipmaps == MipmapSource::box;
-    const std::array<std::string_view, 1> generators{"brushed"};
     const std::string generator = section.text("generator").value();
-    if (generator != generators[0]) section.fail_unknown_word("generator", generator, generators);
-    const int seed = section.integer("seed", 0, std::numeric_limits<int>::max()).value_or(1);
-    const int size = section.integer("width", 1, 4096).value_or(512);
-    if (section.integer("height", 1, 4096).value_or(size) != size)
-        section.fail("height", fmt::format("'height' in {} differs from 'width', expected a square "
-                                           "for a generated map",
-                                           section.label()));
-    const BrushedMap map =
-        section.choice<BrushedMap>("map", kBrushedMaps).value_or(&BrushedMaps::normal);
-    const std::pair key{static_cast<std::uint32_t>(seed), size};
-    auto set = sets.find(key);
-    if (set == sets.end()) set = sets.emplace(key, brushed_maps(key.first, key.second)).first;
-    const bool vectors = map == &BrushedMaps::tangent || map == &BrushedMaps::bitangent;
-    return {std::make_shared<const Texture>(std::span(&(set->second.*map), 1), description),
-            vectors ? set->second.map_scale : 0.0F};
+    // Two of the default picture's maps have no counterpart in other sets, and "normal" is as old.
+    const std::string map_name = section.text("map").value_or("normal");
+    const bool of_every_set = std::any_of(kSetMaps.begin() + 1, kSetMaps.end(),
+                                          [&](const auto& m) { return m.first == map_name; });
+    if (generator == "brushed" && !of_every_set) return read_brushed(section, description, sets);
+    const std::vector<std::string_view> known = generated_set_names();
+    if (std::find(known.begin(), known.end(), generator) == known.end())
+        section.fail_unknown_word("generator", generator, known);
+    const SetMap map = section.choice<SetMap>("map", kSetMaps).value_or(&GeneratedSet::normal_map);
+    const std::pair key{generator, read_set_key(section, kMaxGeneratedSize)};
+    auto set = sets.others.find(key);
+    if (set == sets.others.end())
+        set = sets.others.emplace(key, generated_set(generator, key.second.seed, key.second.size))
+                  .first;
+    const GeneratedSet& s = set->second;
+    NamedTexture named{std::make_shared<const Texture>(std::span(&(s.*map), 1), description)};
+    if (map == &GeneratedSet::alpha_map)
+        named.ranges = {s.alpha_x_range, s.alpha_y_range, s.exponent_range};
+    return named;
 }
 
 MipmapSource read_mipmaps(const Section& section) {
@@ -279,7 +306,7 @@ MipmapSource read_mipmaps(const Section& section) {
 }
 
 NamedTexture read_texture(const Section& section, const std::filesystem::path& directory,
-                          BrushedSets& sets) {
+                          GeneratedSets& sets) {
     int sources = 0;
     for (const char* key : {"file", "files", "texels", "generator"})
         sources += section.has(key) ? 1 : 0;
@@ -309,14 +336,28 @@ NamedTexture read_texture(const Section& section, const std::filesystem::path& d
 
 }  // namespace
 
+SetKey read_set_key(const Section& section, int largest) {
+    const int seed = section.integer("seed", 0, std::numeric_limits<int>::max()).value_or(1);
+    const std::optional<int> given = section.integer("size", 1, largest);
+    const int size = section.integer("width", 1, largest).value_or(given.value_or(512));
+    const int height = section.integer("height", 1, largest).value_or(size);
+    if (given.value_or(size) != size || height != size)
+        section.fail(height != size ? "height" : "size",
+                     fmt::format("'{}' in {} differs from 'width', expected a square for a "
+                                 "generated map",
+                                 height != size ? "height" : "size", section.label()));
+    return {static_cast<std::uint32_t>(seed), size};
+}
+
 TextureTable read_textures(const Section& root, const std::filesystem::path& directory) {
     TextureTable textures;
-    BrushedSets sets;
+    GeneratedSets sets;
     for (const toml::table* table : root.tables("textures")) {
-        const Section section(*table, "[[textures]]",
-                              {"name", "file", "width", "height", "texels", "generator", "seed",
-                               "map", "format", "target", "filter", "mag_filter", "wrap", "mipmaps",
-                               "mip_files", "lod_bias", "border_color", "files", "depth"});
+        const Section section(
+            *table, "[[textures]]",
+            {"name",    "file",      "width",    "height",       "texels", "generator",  "seed",
+             "size",    "map",       "format",   "target",       "filter", "mag_filter", "wrap",
+             "mipmaps", "mip_files", "lod_bias", "border_color", "files",  "depth"});
         const std::string name = section.required_text("name");
         require_new_name(section, textures, name);
         textures.emplace(name, read_texture(section, directory, sets));

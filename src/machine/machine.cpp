@@ -40,6 +40,14 @@ Machine geforce256() {
     return machine;
 }
 
+/// The formulas instead of a machine.
+Machine double_precision() {
+    Machine machine;
+    machine.name = "double";
+    machine.double_precision = true;
+    return machine;
+}
+
 void check_range(const char* field, int value, int low, int high) {
     if (value >= low && value <= high) return;
     throw Error(ErrorCode::bad_option,
@@ -112,7 +120,12 @@ void Machine::validate() const {
     check_range("general_stages", general_stages, 0, 16);
     check_range("subpixel_bits", subpixel_bits, 4, 8);
     check_half_vector(*this);
-    if (numbers == NumberModel::nine_bit) return;
+    if (double_precision && half_vector != HalfVector::pixel) {
+        throw Error(ErrorCode::bad_option,
+                    "half vectors of profile double are computed at every sample, expected "
+                    "half_vector = pixel");
+    }
+    if (numbers == NumberModel::nine_bit || double_precision) return;
     const auto check_default = [](const char* field, bool is_default) {
         if (!is_default) {
             throw Error(ErrorCode::bad_option,
@@ -134,13 +147,14 @@ Machine Machine::for_programs() const {
 }
 
 std::vector<std::string_view> machine_profile_names() {
-    return {"geforce256", "nv2a", "ideal"};
+    return {"geforce256", "nv2a", "ideal", "double"};
 }
 
 Machine machine_profile(std::string_view name) {
     if (name == "geforce256") return geforce256();
     if (name == "nv2a") return nv2a();
     if (name == "ideal") return {};
+    if (name == "double") return double_precision();
     throw Error(ErrorCode::bad_option, fmt::format("unknown machine profile '{}', {}", name,
                                                    expected_one_of(name, machine_profile_names())));
 }

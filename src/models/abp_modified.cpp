@@ -219,6 +219,7 @@ TexturePtr DerivedMaps::axis_map(const TexturePtr& normal_map, int axis, float f
 void DerivedMaps::drop_unused() {
     std::erase_if(m_entries, [](const Entry& e) { return !e.used; });
     for (Entry& e : m_entries) e.used = false;
+    models.drop_unused();
 }
 
 ProgramMaterial compile_abp_modified(const Material& material, const Machine& machine,

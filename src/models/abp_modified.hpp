@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "models/compile_model.hpp"
+
 namespace burnish {
 
 /// Maps that were made from a material's other maps, kept while the material is drawn again.
@@ -12,6 +14,9 @@ class DerivedMaps {
     /// The frame's axis `axis` (0 tangent, 1 bitangent) at every texel of the normal map, times
     /// `factor`, coded like a normal. Without a normal map: one texel with the undisturbed axis.
     TexturePtr axis_map(const TexturePtr& normal_map, int axis, float factor);
+
+    /// Models that compile_model made.
+    CompiledModels models;
 
     /// Forgets what was not asked for since the last call.
     void drop_unused();

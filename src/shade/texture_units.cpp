@@ -491,6 +491,19 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
     return states;
 }
 
+namespace {
+
+/// Brings a table's coordinate from its domain to 0 .. 1, where the centres of `size` texels lie.
+void add_span(TexelSpan span, int size, int attribute, std::vector<InputOp>& ops) {
+    if (span == TexelSpan::edges) return;
+    const auto n = static_cast<float>(size);
+    const bool is_signed = span == TexelSpan::signed_centers;
+    const float scale = is_signed ? 0.5F * (n - 1.0F) : n - 1.0F;
+    ops.emplace_back(AffineCtx{attribute, attribute, scale, is_signed ? 0.5F * n : 0.5F, n});
+}
+
+}  // namespace
+
 std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& texture,
                                       SamplePlan& sampling, FreePlanes& free) {
     const Op equivalent = plain_operation(texture.target());
@@ -511,6 +524,8 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
         at[k] = free.attribute++;
         ops.emplace_back(DecodeCtx{fetch.plane[k], at[k],
                                    fetch.expand[k] ? Reading::expanded : Reading::unsigned_texel});
+        add_span(k == 0 ? texture.sampler().span_s : texture.sampler().span_t,
+                 k == 0 ? texture.width() : texture.height(), at[k], ops);
     }
     const bool intensity = format == TexelClass::dsdt_mag_intensity;
     const int out = intensity ? std::exchange(free.reg, free.reg + 4) : fetch.out;

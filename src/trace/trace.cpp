@@ -105,6 +105,11 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
                                 scene.width, scene.height));
     }
     scene.machine.validate();
+    if (scene.machine.double_precision) {
+        throw Error(ErrorCode::bad_option,
+                    "a trace with profile double, which has no registers; expected one of the "
+                    "machines");
+    }
     PixelTrace trace;
     trace.x = x;
     trace.y = y;

@@ -6,6 +6,7 @@
 #include <burnish/texture.hpp>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Files in and out. The code behind these calls (OpenImageIO, OpenMesh, TOML) lives in the library
@@ -51,6 +52,9 @@ Image8 load_image(const std::filesystem::path& path);
 void save_image(const Framebuffer& frame, const std::filesystem::path& path);
 void save_image(const Image8& image, const std::filesystem::path& path);
 
+/// Text as it is; "-" is no special name.
+void save_text(std::string_view text, const std::filesystem::path& path);
+
 /// Writes binary little-endian PLY or OBJ, by extension, with normals and uvs.
 void save_mesh(const MeshData& mesh, const std::filesystem::path& path);
 
@@ -63,6 +67,9 @@ struct LoadedScene {
 /// `overrides` are "key.path=value" pairs applied before the file is interpreted.
 LoadedScene load_scene(const std::filesystem::path& path,
                        const std::vector<std::string>& overrides = {});
+
+/// A material file (TOML, `schema = 1`): one [material] and the [[textures]] that it names.
+Material load_material(const std::filesystem::path& path);
 
 /// A bare mesh file as a scene: framed camera, one light, brushed steel, profile `ideal`.
 LoadedScene scene_for_mesh(const std::filesystem::path& path);

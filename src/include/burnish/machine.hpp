@@ -105,10 +105,15 @@ struct Machine {
     TangentFrames tangent_frames = TangentFrames::mikktspace;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
+    /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
+    /// the fields above, `viewer` and `tangent_frames` count, and `half_vector` must be `pixel`.
+    bool double_precision = false;
 
-    /// Throws Error{bad_option} for a field outside its range, and for a choice of the nine-bit
-    /// model on a wide machine.
+    /// Throws Error{bad_option} for a field outside its range, for a choice of the nine-bit model
+    /// on a wide machine, and with double_precision for half vectors other than per pixel.
     void validate() const;
+
+    friend bool operator==(const Machine&, const Machine&) = default;
 
     /// What is left for programs: a cube map for half vectors has one of the texture units.
     [[nodiscard]] Machine for_programs() const;
@@ -118,10 +123,10 @@ struct Machine {
 /// Throws Error{bad_option} for anything else.
 void choose_half_vector(Machine& machine, std::string_view word);
 
-/// The names that `machine_profile` knows, in order of age.
+/// The names that `machine_profile` knows: machines in order of age, then "double".
 std::vector<std::string_view> machine_profile_names();
 
-/// "geforce256", "nv2a" or "ideal". Throws Error{bad_option} for another name.
+/// "geforce256", "nv2a", "ideal" or "double". Throws Error{bad_option} for another name.
 Machine machine_profile(std::string_view name);
 
 }  // namespace burnish

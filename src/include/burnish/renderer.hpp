@@ -26,6 +26,10 @@ struct RendererOptions {
     int threads = 0;       ///< workers, exactly that many; 0 = one per core; at most 1024
     std::string isa = {};  ///< empty: the environment variable BURNISH_ISA, else the best available
     std::size_t memory_cap = std::size_t{256} << 20;  ///< bytes for binned triangles, then a flush
+    /// Samples per pixel where Machine::double_precision is set: a square up to 1024. One lies at
+    /// the pixel's centre, several in the cells of a grid, moved about by a fixed hash. Machines
+    /// take one.
+    int double_samples = 1;
 };
 
 /// A register of the combiners as the picture, instead of what the final combiner delivers.
@@ -87,15 +91,19 @@ class Renderer {
     [[nodiscard]] int threads() const noexcept;
 
     /// Renders `scene` into all of `target`, whose size (not the scene's) sets the resolution.
+    /// With Machine::double_precision: by the formulas of the models, in double precision; opaque
+    /// meshes with a model only. Frames of floats are then not clamped to 1.
     /// Throws Error{bad_program} or Error{bad_option} for a material, machine or camera that cannot
     /// be drawn, Error{limit} if memory runs out; the contents of `target` are then unspecified.
     FrameStats render(const Scene& scene, Framebuffer& target);
 
     /// The same picture with a register in place of its colours; the background stays.
-    /// Throws Error{bad_option}, too, for a register that the machine does not have.
+    /// Throws Error{bad_option}, too, for a register that the machine does not have; with
+    /// Machine::double_precision that is every one.
     FrameStats render(const Scene& scene, Framebuffer& target, const ShownRegister& shown);
 
-    /// The same fragments with what is known of their geometry in place of colours.
+    /// The same fragments with what is known of their geometry in place of colours. Throws
+    /// Error{bad_option}, too, with Machine::double_precision.
     FrameStats render(const Scene& scene, Framebuffer& target, Aov shown);
 
   private:

@@ -114,7 +114,7 @@ struct ParameterMap {
     float low = 0.0F, high = 1.0F;
 };
 
-/// How a number of -1 .. 1 stands in a byte n of a vector map (docs/models.md).
+/// How a number of -1 .. 1 stands in a byte n of a vector map (docs/materials.md).
 enum class VectorEncoding {
     a,  ///< n / 127.5 - 1: no exact zero
     b,  ///< (n - 128) / 127, at least -1
@@ -135,7 +135,7 @@ struct Material {
     ParameterMap alpha_x_map, alpha_y_map, exponent_map;  ///< instead of the numbers
     TexturePtr kd_map;                                    ///< rgb multiplies kd
     TexturePtr direction_map;  ///< r, g: cosine and sine, to `encoding`, of the angle from the u
-                               ///< axis to the tangent, towards +v
+                               ///< axis to the tangent, against the clock
     VectorEncoding encoding = VectorEncoding::d;  ///< of normal_map and direction_map
     bool normal_y_up = true;                      ///< false: normal_map's green grows downwards
     bool srgb_colors = false;                     ///< kd_map and specular_map hold sRGB

@@ -68,6 +68,15 @@ enum class Filter {
 
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border, mirrored_repeat };
 
+/// What the ends of a table's coordinate stand for. Other than `edges` is for fetches between stages
+/// alone, which look functions up: there the ends of the domain are the centres of the first and
+/// the last texel, so that a linear filter never leaves the function.
+enum class TexelSpan {
+    edges,           ///< 0 and 1 are the outer edges of the texels, as everywhere
+    centers,         ///< 0 and 1 are their centres
+    signed_centers,  ///< -1 and 1 are
+};
+
 /// How coordinates reach texels. Texel row 0 lies at t = 0; linear filtering samples at u*W - 1/2.
 struct Sampler {
     Filter filter = Filter::linear;  ///< where a pixel is larger than a texel
@@ -79,6 +88,7 @@ struct Sampler {
     float lod_bias = 0.0F;  ///< levels, [-16, 16), kept in 1/256
     /// r, g, b, a of clamp_to_border, clamped to the range of the format.
     std::array<float, 4> border{};
+    TexelSpan span_s = TexelSpan::edges, span_t = TexelSpan::edges;
 
     [[nodiscard]] constexpr bool mag_is_linear() const noexcept {
         return is_linear_within(mag_filter.value_or(filter));

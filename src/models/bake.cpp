@@ -1,0 +1,205 @@
+#include "models/bake.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dmath.hpp"
+
+namespace burnish {
+
+namespace {
+
+constexpr int kWideOne = 16384;
+
+/// Parameters that quantities are made of.
+std::vector<const Expr*> parameters_of(const std::vector<const Expr*>& quantities) {
+    std::vector<const Expr*> found;
+    const auto visit = [&](const auto& self, const Expr& e) -> void {
+        if (e.op == ExprOp::parameter && std::find(found.begin(), found.end(), &e) == found.end())
+            found.push_back(&e);
+        for (const ExprPtr& arg : e.args) self(self, *arg);
+    };
+    for (const Expr* q : quantities) visit(visit, *q);
+    return found;
+}
+
+std::vector<const Expr*> definitions_of(const std::vector<const Expr*>& quantities) {
+    std::vector<const Expr*> definitions;
+    for (const Expr* q : quantities) definitions.push_back(q->args.front().get());
+    return definitions;
+}
+
+glm::dvec3 parameter(const std::string& name, const TexelParameters& p) {
+    if (name == "n") return p.n;
+    if (name == "t") return p.t;
+    if (name == "b") return p.b;
+    if (name == "alpha_x") return glm::dvec3(p.alpha_x);
+    if (name == "alpha_y") return glm::dvec3(p.alpha_y);
+    if (name == "N") return glm::dvec3(p.exponent);
+    return name == "ks" ? p.ks : p.kd;
+}
+
+/// A number of 0 .. 1 as a texel's word, whose code in a wide register is as near as can be, or as
+/// a byte.
+int texel_code(double x, NumberModel numbers) {
+    x = std::clamp(x, 0.0, 1.0);
+    if (numbers == NumberModel::nine_bit) return static_cast<int>(std::floor(255.0 * x + 0.5));
+    return std::min(4 * static_cast<int>(std::floor(kWideOne * x + 0.5)), 65535);
+}
+
+/// A component of -1 .. 1, for `expand`.
+int vector_code(double x, NumberModel numbers) {
+    if (numbers == NumberModel::wide) return texel_code(0.5 * x + 0.5, numbers);
+    return static_cast<int>(std::clamp(std::floor(127.5 * x + 128.0), 0.0, 255.0));
+}
+
+/// Channels of a texture, whichever texels it has.
+class TexelImage {
+  public:
+    TexelImage(int width, int height, NumberModel numbers) : m_numbers(numbers) {
+        if (numbers == NumberModel::wide) {
+            m_words = Image16(width, height);
+        } else {
+            m_bytes = Image8(width, height);
+        }
+    }
+    void put(int x, int y, int channel, int code) {
+        if (m_numbers == NumberModel::wide) {
+            m_words.at(x, y)[channel] = static_cast<std::uint16_t>(code);
+        } else {
+            m_bytes.at(x, y)[channel] = static_cast<std::uint8_t>(code);
+        }
+    }
+    TexturePtr texture(const Sampler& sampler, TextureTarget target = TextureTarget::two_d) const {
+        TextureDescription description;
+        description.sampler = sampler;
+        description.target = target;
+        if (m_numbers == NumberModel::wide) {
+            description.format = TexelFormat::rgba16;
+            return std::make_shared<const Texture>(std::span(&m_words, 1), description);
+        }
+        return std::make_shared<const Texture>(std::span(&m_bytes, 1), description);
+    }
+
+  private:
+    NumberModel m_numbers;
+    Image8 m_bytes;
+    Image16 m_words;
+};
+
+TexturePtr table_texture(const PlanTable& table, NumberModel numbers) {
+    const int width = table.axes[0].size;
+    const int height = table.axes.size() == 2 ? table.axes[1].size : 1;
+    TexelImage image(width, height, numbers);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const double value = table.values[static_cast<std::size_t>(y * width + x)];
+            const int code = table.coded ? vector_code(value, numbers) : texel_code(value, numbers);
+            for (int c = 0; c < 4; ++c) image.put(x, y, c, code);
+        }
+    }
+    Sampler sampler;
+    // A nine-bit coordinate has a texel of its own.
+    sampler.filter = numbers == NumberModel::wide ? Filter::linear : Filter::nearest;
+    sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
+    const auto span = [&](std::size_t axis) {
+        return table.axes[axis].is_signed ? TexelSpan::signed_centers : TexelSpan::centers;
+    };
+    sampler.span_s = span(0);
+    if (height == 1) return image.texture(sampler, TextureTarget::one_d);
+    sampler.span_t = span(1);
+    return image.texture(sampler);
+}
+
+/// How the codes of a quantity are read.
+LayerQuantity description(const PlanQuantity& q, NumberModel numbers) {
+    LayerQuantity d;
+    d.name = q.name;
+    d.components = q.kind == ValueKind::scalar ? 1 : 3;
+    d.logarithmic = q.logarithmic;
+    const bool wide = numbers == NumberModel::wide;
+    // Registers hold n / 65536, n / 255, and twice that less 1, less 256/255.
+    const double one = wide ? 65535.0 / 65536.0 : 1.0;
+    if (q.kind == ValueKind::vector) {
+        d.scale = q.unit * (2.0 * one);
+        d.offset = q.unit * (wide ? -1.0 : -256.0 / 255.0);
+    } else {
+        d.scale = q.unit * one;
+        d.offset = glm::dvec3(q.low);
+    }
+    return d;
+}
+
+glm::dvec3 in_units(const PlanQuantity& q, const glm::dvec3& value) {
+    if (!q.logarithmic) return value / q.unit;
+    return glm::dvec3((dmath::log2(value.x) - q.low) / q.unit.x);
+}
+
+}  // namespace
+
+glm::dvec3 LayerQuantity::decoded(const glm::dvec3& x) const {
+    const glm::dvec3 value = scale * x + offset;
+    return logarithmic ? glm::dvec3(dmath::exp2(value.x)) : value;
+}
+
+TexelTape::TexelTape(const std::vector<const Expr*>& quantities)
+    : m_leaves(parameters_of(quantities)), m_tape(definitions_of(quantities), m_leaves) {}
+
+void TexelTape::run(const TexelParameters& texel, glm::dvec3* values) {
+    glm::dvec3 leaves[8];
+    for (std::size_t i = 0; i < m_leaves.size(); ++i)
+        leaves[i] = parameter(m_leaves[i]->name, texel);
+    m_tape.run(leaves, values);
+}
+
+BakedTextures bake(const Plan& plan, const Schedule& schedule, const TexelSource& source,
+                   NumberModel numbers) {
+    BakedTextures baked;
+    baked.units.resize(schedule.material.units.size());
+    std::vector<const Expr*> exprs;
+    for (const PlanQuantity& q : plan.quantities) exprs.push_back(q.expr);
+    TexelTape tape(exprs);
+    std::vector<glm::dvec3> values(exprs.size());
+    std::vector<std::unique_ptr<TexelImage>> images(baked.units.size());
+    for (const QuantityPlace& place : schedule.quantities) {
+        auto& image = images[static_cast<std::size_t>(place.unit)];
+        if (!image) image = std::make_unique<TexelImage>(source.width(), source.height(), numbers);
+    }
+    for (int y = 0; y < source.height(); ++y) {
+        for (int x = 0; x < source.width(); ++x) {
+            tape.run(source.at(x, y), values.data());
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const PlanQuantity& q = plan.quantities[i];
+                const QuantityPlace& place = schedule.quantities[i];
+                TexelImage& image = *images[static_cast<std::size_t>(place.unit)];
+                const glm::dvec3 v = in_units(q, values[i]);
+                const bool vector = q.kind == ValueKind::vector;
+                const auto code = [&](double component) {
+                    return vector ? vector_code(component, numbers)
+                                  : texel_code(component, numbers);
+                };
+                if (place.alpha) {
+                    image.put(x, y, 3, code(v.x));
+                } else {
+                    for (int c = 0; c < 3; ++c) image.put(x, y, c, code(v[c]));
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        if (images[i]) baked.units[i] = images[i]->texture(source.sampler());
+    }
+    for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
+        LayerQuantity d = description(plan.quantities[i], numbers);
+        d.texture = baked.units[static_cast<std::size_t>(schedule.quantities[i].unit)];
+        d.channel = schedule.quantities[i].alpha ? 3 : 0;
+        baked.layer.push_back(std::move(d));
+    }
+    for (std::size_t i = 0; i < plan.tables.size(); ++i) {
+        baked.units[static_cast<std::size_t>(schedule.tables[i])] =
+            table_texture(plan.tables[i], numbers);
+    }
+    return baked;
+}
+
+}  // namespace burnish

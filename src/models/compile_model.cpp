@@ -1,0 +1,163 @@
+#include "models/compile_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <burnish/multipass.hpp>
+#include <cmath>
+
+#include "models/bake.hpp"
+#include "models/make_plan.hpp"
+#include "models/model_texts.hpp"
+#include "models/parse_model.hpp"
+#include "models/texel.hpp"
+
+namespace burnish {
+
+namespace {
+
+ExprPtr parsed(const Material& material, ExprBuilder& builder) {
+    const bool own = material.model == Model::text;
+    const std::string_view text =
+        own ? std::string_view(material.model_text) : model_text(material.model);
+    Parsed<ExprPtr> result = parse_model(text, builder);
+    if (result.program) return *result.program;
+    const TextError& error = result.errors.front();
+    throw Error(ErrorCode::bad_program,
+                fmt::format("material '{}', model_text:{}:{}: {}", material.name, error.line,
+                            error.column, error.message));
+}
+
+/// What quantities are over the texels.
+std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const Expr*>& quantities,
+                                                       const TexelSource& source,
+                                                       double& most_tilt) {
+    TexelTape tape(quantities);
+    std::vector<glm::dvec3> at(quantities.size());
+    std::vector<QuantityValues> values(quantities.size());
+    most_tilt = 0.0;
+    for (int y = 0; y < source.height(); ++y) {
+        for (int x = 0; x < source.width(); ++x) {
+            const TexelParameters texel = source.at(x, y);
+            most_tilt = std::max({most_tilt, std::abs(texel.n.x), std::abs(texel.n.y)});
+            tape.run(texel, at.data());
+            const bool first = x == 0 && y == 0;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                QuantityValues& v = values[i];
+                const double length = std::sqrt(glm::dot(at[i], at[i]));
+                v.low = first ? at[i] : glm::min(v.low, at[i]);
+                v.high = first ? at[i] : glm::max(v.high, at[i]);
+                v.shortest = first ? length : std::min(v.shortest, length);
+                v.longest = first ? length : std::max(v.longest, length);
+                if (length > 0.0)
+                    v.spread = glm::max(v.spread, glm::abs(at[i]) / (length * length));
+            }
+        }
+    }
+    std::map<const Expr*, QuantityValues, ByAge> result;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const QuantityValues& v = values[i];
+        if (!std::isfinite(v.longest))
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("quantity '{}' of the material is not finite everywhere",
+                                    quantities[i]->name));
+        result.emplace(quantities[i], v);
+    }
+    return result;
+}
+
+}  // namespace
+
+CompiledModel compile_model(const Material& material, const Machine& machine,
+                            const glm::vec3& light, const glm::vec3& ambient) {
+    ExprBuilder builder;
+    ExprPtr value = name_quantities(parsed(material, builder), builder);
+    const TexelSource source(material);
+    PlanTask task;
+    task.quantities = values_of(quantities_of(*value), source, task.most_tilt);
+
+    // Numbers and colours that do not vary are constants of the program.
+    std::vector<std::pair<const Expr*, glm::dvec3>> constants;
+    std::vector<LayerQuantity> constant_layer;
+    for (const auto& [quantity, v] : task.quantities) {
+        if (quantity->kind == ValueKind::vector || v.low != v.high) continue;
+        constants.emplace_back(quantity, v.low);
+        LayerQuantity same;
+        same.name = quantity->name;
+        same.components = quantity->kind == ValueKind::scalar ? 1 : 3;
+        same.constant = v.low;
+        constant_layer.push_back(std::move(same));
+    }
+    value = with_constants(value, builder, constants);
+
+    const std::vector<ModelTerm> terms = terms_of(value, builder);
+    Ranges ranges;
+    for (const auto& [quantity, v] : task.quantities) {
+        if (quantity->kind == ValueKind::vector) {
+            ranges.set(quantity, {v.shortest, v.longest});
+        } else {
+            ranges.set(quantity, {std::min({v.low.x, v.low.y, v.low.z}),
+                                  std::max({v.high.x, v.high.y, v.high.z})});
+        }
+    }
+    std::vector<const Expr*> roots;
+    for (const ModelTerm& term : terms) {
+        if (term.scalar) roots.push_back(term.scalar.get());
+    }
+    Cover cover(roots, ranges, machine.numbers, machine.stage_fetches);
+    task.terms = &terms;
+    task.varies = source.varies();
+    task.light = light;
+    task.ambient = ambient;
+    task.numbers = machine.numbers;
+    task.vertex_light = machine.half_vector == HalfVector::vertex;
+    task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
+    const Plan plan = make_plan(task, cover, ranges);
+    Schedule scheduled = schedule(plan, machine);
+    BakedTextures baked = bake(plan, scheduled, source, machine.numbers);
+
+    CompiledModel compiled;
+    compiled.program = std::move(scheduled.material);
+    compiled.program.units = std::move(baked.units);
+    compiled.layer = std::move(baked.layer);
+    compiled.layer.insert(compiled.layer.end(), constant_layer.begin(), constant_layer.end());
+    for (std::size_t i = 0; i < plan.tables.size(); ++i) {
+        const PlanTable& t = plan.tables[i];
+        TableReport& report = compiled.tables.emplace_back();
+        report.function = t.function;
+        for (const PlanAxis& axis : t.axes) report.arguments.push_back(axis.name);
+        report.unit = scheduled.tables[i];
+        report.width = t.axes[0].size;
+        report.height = t.axes.size() == 2 ? t.axes[1].size : 1;
+        report.interpolation = t.interpolation;
+    }
+    return compiled;
+}
+
+const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& material,
+                                         const Machine& machine, const glm::vec3& light,
+                                         const glm::vec3& ambient) {
+    for (const auto& e : m_entries) {
+        if (e->material == material && e->machine == machine && e->light == light &&
+            e->ambient == ambient) {
+            e->used = true;
+            return e->model;
+        }
+    }
+    CompiledModel model = compile_model(*material, machine, light, ambient);
+    m_entries.push_back(
+        std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), true}));
+    return m_entries.back()->model;
+}
+
+void CompiledModels::drop_unused() {
+    std::erase_if(m_entries, [](const auto& e) { return !e->used; });
+    for (const auto& e : m_entries) e->used = false;
+}
+
+std::vector<LayerQuantity> material_layer(const Material& material, const Machine& machine) {
+    return compile_model(material, machine, glm::vec3(1.0F), glm::vec3(0.0F)).layer;
+}
+
+}  // namespace burnish

@@ -1,0 +1,240 @@
+#include "models/cover.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <cmath>
+#include <limits>
+
+#include "core/dmath.hpp"
+#include "models/table_domain.hpp"
+
+namespace burnish {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLog2E = 1.4426950408889634;
+constexpr std::size_t kMostArguments = 2;
+
+/// In halves of a stage's portion: what a model is charged for.
+constexpr double kOperation = 1.0, kTable1d = 2.0, kTable2d = 3.5;
+
+/// And for interpolation that is off by the table's whole height.
+constexpr double kRoughness = 1000.0;
+
+bool is_leaf(const Expr& e) {
+    return e.op == ExprOp::constant || e.op == ExprOp::geometry || e.op == ExprOp::quantity ||
+           e.op == ExprOp::parameter || e.op == ExprOp::dot;
+}
+
+Interval product(const Interval& a, const Interval& b) {
+    const double ends[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    Interval out{kInfinity, -kInfinity};
+    for (double end : ends) {
+        if (std::isnan(end)) end = 0.0;  // 0 times infinity
+        out.low = std::min(out.low, end);
+        out.high = std::max(out.high, end);
+    }
+    return out;
+}
+
+}  // namespace
+
+int squarings(double exponent) {
+    for (int k = 0; k <= 10; ++k) {
+        if (exponent == std::ldexp(1.0, k)) return k;
+    }
+    return -1;
+}
+
+Interval Ranges::of(const Expr& e) {
+    const auto at = m_known.find(&e);
+    if (at != m_known.end()) return at->second;
+    const Interval range = computed(e);
+    m_known.emplace(&e, range);
+    return range;
+}
+
+Interval Ranges::computed(const Expr& e) {
+    const auto arg = [&](std::size_t i) { return of(*e.args[i]); };
+    switch (e.op) {
+        case ExprOp::constant:
+            return {std::min({e.value.x, e.value.y, e.value.z}),
+                    std::max({e.value.x, e.value.y, e.value.z})};
+        case ExprOp::geometry:
+            return e.kind == ValueKind::vector ? Interval{1.0, 1.0} : Interval{0.0, 1.0};
+        case ExprOp::add:
+            return {arg(0).low + arg(1).low, arg(0).high + arg(1).high};
+        case ExprOp::multiply: {
+            if (e.args[0] != e.args[1]) return product(arg(0), arg(1));
+            const Interval a = arg(0);
+            const double high = std::max(a.low * a.low, a.high * a.high);
+            return {a.low <= 0.0 && a.high >= 0.0 ? 0.0 : std::min(a.low * a.low, a.high * a.high),
+                    high};
+        }
+        case ExprOp::divide: {
+            const Interval b = arg(1);
+            if (b.low <= 0.0 && b.high >= 0.0) return {-kInfinity, kInfinity};
+            return product(arg(0), {1.0 / b.high, 1.0 / b.low});
+        }
+        case ExprOp::dot: {
+            const double length = arg(0).high * arg(1).high;
+            return {-length, length};
+        }
+        case ExprOp::power: {
+            const Interval a = arg(0), b = arg(1);
+            const double base = std::max(a.high, 0.0);
+            if (b.low < 0.0) return {0.0, a.low > 0.0 ? dmath::pow(a.low, b.low) : kInfinity};
+            return {0.0, base <= 1.0 ? std::max(dmath::pow(base, b.low), b.low == 0.0 ? 1.0 : 0.0)
+                                     : dmath::pow(base, b.high)};
+        }
+        case ExprOp::square_root:
+            return {std::sqrt(std::max(arg(0).low, 0.0)), std::sqrt(std::max(arg(0).high, 0.0))};
+        case ExprOp::exponential:
+            return {dmath::exp2(arg(0).low * kLog2E), dmath::exp2(arg(0).high * kLog2E)};
+        case ExprOp::minimum:
+            return {std::min(arg(0).low, arg(1).low), std::min(arg(0).high, arg(1).high)};
+        case ExprOp::maximum:
+            return {std::max(arg(0).low, arg(1).low), std::max(arg(0).high, arg(1).high)};
+        default:
+            return {-kInfinity, kInfinity};
+    }
+}
+
+Cover::Cover(const std::vector<const Expr*>& roots, Ranges& ranges, NumberModel numbers,
+             bool dependent_fetches)
+    : m_ranges(ranges), m_numbers(numbers), m_dependent_fetches(dependent_fetches) {
+    for (const Expr* root : roots) choose(*root);
+}
+
+const TableCut* Cover::table(const Expr& e) const {
+    const auto at = m_best.find(&e);
+    return at != m_best.end() && at->second.is_table ? &at->second.cut : nullptr;
+}
+
+bool Cover::bounded(const Expr& e) {
+    const Interval range = m_ranges.of(e);
+    return std::isfinite(range.low) && std::isfinite(range.high);
+}
+
+const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
+    const auto at = m_cuts.find(&e);
+    if (at != m_cuts.end()) return at->second;
+    std::vector<NodeSet> found;
+    if (e.op == ExprOp::constant) {
+        found.push_back({});
+    } else {
+        // Multiples are read from what they are multiples of.
+        const bool is_multiple = e.op == ExprOp::multiply && e.args[0]->op == ExprOp::constant;
+        if (!is_multiple) found.push_back({&e});
+        if (!is_leaf(e)) {
+            std::vector<NodeSet> merged{{}};
+            for (const ExprPtr& arg : e.args) {
+                std::vector<NodeSet> wider;
+                for (const auto& have : merged) {
+                    for (const auto& more : cuts(*arg)) {
+                        NodeSet both = have;
+                        both.insert(more.begin(), more.end());
+                        const bool is_new =
+                            std::find(wider.begin(), wider.end(), both) == wider.end();
+                        if (both.size() <= kMostArguments && is_new) wider.push_back(both);
+                    }
+                }
+                merged = std::move(wider);
+            }
+            found.insert(found.end(), merged.begin(), merged.end());
+        }
+    }
+    return m_cuts.emplace(&e, std::move(found)).first->second;
+}
+
+double Cover::table_cost(const Expr& e, const NodeSet& cut) {
+    if (!m_dependent_fetches || cut.empty() || cut.contains(&e)) return kInfinity;
+    double cost = cut.size() == 1 ? kTable1d : kTable2d;
+    bool of_pixel = false;
+    for (const Expr* arg : cut) {
+        if (arg->kind != ValueKind::scalar || !bounded(*arg)) return kInfinity;
+        of_pixel |= arg->binding == Binding::pixel;
+        cost += best(*arg).cost;
+    }
+    if (!of_pixel) return kInfinity;
+    return cost + kRoughness * table_domain(e, {cut.begin(), cut.end()}, m_ranges, m_numbers).error;
+}
+
+const Cover::Way& Cover::best(const Expr& e) {
+    const auto at = m_best.find(&e);
+    if (at != m_best.end()) return at->second;
+    Way way;
+    const auto arg = [&](std::size_t i) { return best(*e.args[i]).cost; };
+    const auto is_constant = [&](std::size_t i) { return e.args[i]->op == ExprOp::constant; };
+    if (is_leaf(e)) {
+        way.cost = e.op == ExprOp::dot ? kOperation : 0.0;
+        return m_best.emplace(&e, way).first->second;
+    }
+    way.cost = kInfinity;
+    switch (e.op) {
+        case ExprOp::multiply:
+            if (e.args[0] == e.args[1]) {
+                way.cost = arg(0) + kOperation;
+            } else {
+                way.cost = arg(0) + arg(1) + (is_constant(0) || is_constant(1) ? 0.0 : kOperation);
+            }
+            break;
+        case ExprOp::add: {
+            way.cost = kOperation;
+            for (const ExprPtr& a : e.args) {
+                // A product of two pixel values comes along with its sum.
+                const bool is_product =
+                    a->op == ExprOp::multiply && a->args[0]->op != ExprOp::constant;
+                way.cost += best(*a).cost - (is_product ? kOperation : 0.0);
+            }
+            break;
+        }
+        case ExprOp::maximum:
+            if (is_number(*e.args[0], 0.0) || is_number(*e.args[1], 0.0))
+                way.cost = arg(0) + arg(1);
+            break;
+        case ExprOp::minimum:
+            if (is_constant(0) || is_constant(1)) way.cost = arg(0) + arg(1) + kOperation;
+            break;
+        case ExprOp::power:
+            if (is_constant(1) && squarings(e.args[1]->value.x) > 0)
+                way.cost = arg(0) + kOperation * squarings(e.args[1]->value.x);
+            break;
+        default:
+            break;
+    }
+    const bool hard = way.cost == kInfinity;
+    for (const auto& cut : cuts(e)) {
+        // Of equal cuts the lowest, which leaves most to the table.
+        const double cost = table_cost(e, cut);
+        if (cost > way.cost || (cost == way.cost && !way.is_table) || cost == kInfinity) continue;
+        way.cost = cost;
+        way.is_table = true;
+        way.cut.args.assign(cut.begin(), cut.end());
+    }
+    // What is computed is as good as what is looked up, or better: a tie is the combiners'.
+    if (hard && way.cost == kInfinity && m_dependent_fetches) {
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("{}:{}: a table that has no bound: expected arguments that stay "
+                                "finite, as with max(1/32, ...)",
+                                e.line, e.column));
+    }
+    return m_best.emplace(&e, std::move(way)).first->second;
+}
+
+void Cover::choose(const Expr& e) {
+    if (e.kind != ValueKind::scalar || e.op == ExprOp::constant || e.op == ExprOp::quantity) return;
+    if (!m_chosen.insert(&e).second) return;
+    const Way& way = best(e);
+    if (way.is_table) {
+        for (const Expr* arg : way.cut.args) choose(*arg);
+        m_tables.push_back(&e);
+    } else if (!is_leaf(e)) {
+        for (const ExprPtr& arg : e.args) choose(*arg);
+    }
+}
+
+}  // namespace burnish

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <burnish/machine.hpp>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "models/expression.hpp"
+
+namespace burnish {
+
+using NodeSet = std::set<const Expr*, ByAge>;
+
+struct Interval {
+    double low = 0.0, high = 0.0;
+};
+
+/// What is known of the values of nodes.
+class Ranges {
+  public:
+    /// Of a quantity or a parameter: its values; of a vector its length.
+    void set(const Expr* leaf, const Interval& values) { m_known[leaf] = values; }
+    /// Infinite where nothing bounds a value.
+    Interval of(const Expr& e);
+
+  private:
+    Interval computed(const Expr& e);
+    std::map<const Expr*, Interval, ByAge> m_known;
+};
+
+/// A subexpression as a table over one or two others.
+struct TableCut {
+    std::vector<const Expr*> args;
+};
+
+/// What the combiners cannot do becomes tables: the cheapest way to compute `roots`, all scalars of
+/// the pixel, from dot products, values of the pixel and quantities. As in technology mapping for
+/// look-up tables (Cong and Ding, FlowMap, 1994), every node has cuts of at most two nodes below it
+/// that determine it; a node is computed by combiners from its arguments, or looked up by a cut.
+class Cover {
+  public:
+    /// @param dependent_fetches  without them only powers of two can be had, by squaring
+    /// @param numbers  how fine tables can be
+    Cover(const std::vector<const Expr*>& roots, Ranges& ranges, NumberModel numbers,
+          bool dependent_fetches);
+
+    /// How a node that is not a leaf is computed: null by the combiners.
+    [[nodiscard]] const TableCut* table(const Expr& e) const;
+    /// Nodes that are tables, arguments before what needs them.
+    [[nodiscard]] const std::vector<const Expr*>& tables() const { return m_tables; }
+
+  private:
+    struct Way {
+        double cost = 0.0;
+        bool is_table = false;
+        TableCut cut;
+    };
+    const Way& best(const Expr& e);
+    const std::vector<NodeSet>& cuts(const Expr& e);
+    void choose(const Expr& e);
+    double table_cost(const Expr& e, const NodeSet& cut);
+    [[nodiscard]] bool bounded(const Expr& e);
+
+    Ranges& m_ranges;
+    NumberModel m_numbers;
+    bool m_dependent_fetches;
+    std::map<const Expr*, Way, ByAge> m_best;
+    std::map<const Expr*, std::vector<NodeSet>, ByAge> m_cuts;
+    NodeSet m_chosen;
+    std::vector<const Expr*> m_tables;
+};
+
+/// How many times x must be squared for x^exponent; -1 where that does not give it.
+int squarings(double exponent);
+
+}  // namespace burnish

@@ -1,0 +1,170 @@
+#include "models/texel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <burnish/error.hpp>
+#include <cmath>
+#include <utility>
+
+#include "models/map_sampler.hpp"
+#include "models/srgb.hpp"
+#include "models/vector_encoding.hpp"
+
+namespace burnish {
+namespace {
+
+std::array<std::pair<const char*, TexturePtr>, 9> maps_of(const Material& m) {
+    return {{{"normal_map", m.normal_map},
+             {"tangent_map", m.tangent_map},
+             {"bitangent_map", m.bitangent_map},
+             {"direction_map", m.direction_map},
+             {"alpha_x", m.alpha_x_map.texture},
+             {"alpha_y", m.alpha_y_map.texture},
+             {"exponent", m.exponent_map.texture},
+             {"kd_map", m.kd_map},
+             {"specular_map", m.specular_map}}};
+}
+
+/// Channel c of the texel (x, y) as the number of its format, 0 .. 1 or -1 .. 1; (-1, -1): of the
+/// border. Formats of two channels have b = 0 and a = 1.
+double channel(const Texture& map, int x, int y, int c) {
+    if (x < 0) return static_cast<double>(map.sampler().border[static_cast<std::size_t>(c)]);
+    if (is_hilo(map.format()) && c > 1) return c == 3 ? 1.0 : 0.0;
+    const bool words = has_words(map.format());
+    const double most = map.is_signed(c) ? (words ? 32768.0 : 128.0) : (words ? 65535.0 : 255.0);
+    return map.texel(0, 0, x, y, c) / most;
+}
+
+/// Component c of a vector; formats that are signed already are decoded by their own rule.
+double component(const Texture& map, VectorEncoding encoding, int x, int y, int c) {
+    if (x < 0 || map.is_signed(c)) return channel(map, x, y, c);
+    return decode_vector_code(encoding, map.texel(0, 0, x, y, c), has_words(map.format()) ? 16 : 8);
+}
+
+/// `v` made perpendicular to n and unit; where it has nothing left, the direction that it tends to
+/// as n approaches it from the z axis.
+glm::dvec3 perpendicular(const glm::dvec3& v, const glm::dvec3& n) {
+    const double along = glm::dot(v, n);
+    const glm::dvec3 rest = v - n * along;
+    const double length = std::sqrt(glm::dot(rest, rest));
+    if (length > 1e-6) return rest / length;
+    const glm::dvec3 down(0.0, 0.0, along < 0.0 ? 1.0 : -1.0);
+    const glm::dvec3 fallback = down - n * glm::dot(down, n);
+    const double left = std::sqrt(glm::dot(fallback, fallback));
+    return left > 1e-6 ? fallback / left : glm::dvec3(1.0, 0.0, 0.0);
+}
+
+}  // namespace
+
+TexelSource::TexelSource(const Material& material) : m_material(material) {
+    if (!material.tangent_map != !material.bitangent_map)
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("material '{}': one of tangent_map and bitangent_map, expected "
+                                "both or neither",
+                                material.name));
+    if (material.tangent_map && !(material.map_scale > 0.0F))
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("material '{}': map_scale {} of its vector maps, expected more "
+                                "than 0",
+                                material.name, material.map_scale));
+    for (const ParameterMap* map :
+         {&material.alpha_x_map, &material.alpha_y_map, &material.exponent_map}) {
+        if (map->channel < 0 || map->channel > 3)
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("material '{}': channel {} of a map, expected 0 .. 3",
+                                    material.name, map->channel));
+    }
+    std::int64_t most = 0;
+    for (const auto& [name, map] : maps_of(material)) {
+        if (!map) continue;
+        if (map->target() != TextureTarget::two_d)
+            throw Error(
+                ErrorCode::bad_program,
+                fmt::format("material '{}': {} is not two-dimensional", material.name, name));
+        m_varies = true;
+        const std::int64_t texels = static_cast<std::int64_t>(map->width()) * map->height();
+        if (texels <= most) continue;
+        most = texels;
+        m_width = map->width();
+        m_height = map->height();
+        m_sampler = map->sampler();
+    }
+}
+
+double TexelSource::parameter(const ParameterMap& map, float constant, int x, int y) const {
+    if (!map.texture) return static_cast<double>(constant);
+    const Texture& texture = *map.texture;
+    const double value = MapSampler(texture, m_width, m_height).at(x, y, [&](int i, int j) {
+        return channel(texture, i, j, map.channel);
+    });
+    const auto low = static_cast<double>(map.low);
+    return low + (static_cast<double>(map.high) - low) * value;
+}
+
+glm::dvec3 TexelSource::color(const TexturePtr& map, const glm::vec3& factor, int x, int y) const {
+    if (!map) return {factor};
+    const auto texel = [&](int i, int j) {
+        glm::dvec3 c;
+        for (int k = 0; k < 3; ++k) {
+            const double value = channel(*map, i, j, k);
+            c[k] = m_material.srgb_colors ? linear_from_srgb(value) : value;
+        }
+        return c;
+    };
+    const glm::dvec3 c = MapSampler(*map, m_width, m_height).at(x, y, texel);
+    return glm::max(c * glm::dvec3(factor), glm::dvec3(0.0));
+}
+
+glm::dvec3 TexelSource::vector(const TexturePtr& map, VectorEncoding encoding, int x, int y) const {
+    return MapSampler(*map, m_width, m_height).at(x, y, [&](int i, int j) {
+        const double r = component(*map, encoding, i, j, 0);
+        const double g = component(*map, encoding, i, j, 1);
+        // Formats of two channels leave the third to the length.
+        const double b = is_hilo(map->format()) ? std::sqrt(std::max(1.0 - r * r - g * g, 0.0))
+                                                : component(*map, encoding, i, j, 2);
+        return glm::dvec3(r, g, b);
+    });
+}
+
+glm::dvec3 TexelSource::normal(int x, int y) const {
+    glm::dvec3 n = vector(m_material.normal_map, m_material.encoding, x, y);
+    if (!m_material.normal_y_up) n.y = -n.y;
+    const double length = std::sqrt(glm::dot(n, n));
+    return length > 1e-6 ? n / length : glm::dvec3(0.0, 0.0, 1.0);
+}
+
+TexelParameters TexelSource::at(int x, int y) const {
+    TexelParameters p;
+    const Material& m = m_material;
+    if (m.normal_map) p.n = normal(x, y);
+    p.alpha_x = parameter(m.alpha_x_map, m.alpha_x, x, y);
+    p.alpha_y = parameter(m.alpha_y_map, m.alpha_y, x, y);
+    glm::dvec3 t(1.0, 0.0, 0.0);
+    if (m.tangent_map) {
+        // The machine reads these two with expand, whatever the others are coded in.
+        t = vector(m.tangent_map, VectorEncoding::d, x, y);
+        const glm::dvec3 b = vector(m.bitangent_map, VectorEncoding::d, x, y);
+        const auto scale = static_cast<double>(m.map_scale);
+        p.alpha_x = scale / std::max(std::sqrt(glm::dot(t, t)), scale);
+        p.alpha_y = scale / std::max(std::sqrt(glm::dot(b, b)), scale);
+        const glm::dvec3 n = glm::cross(t, b);
+        const double length = std::sqrt(glm::dot(n, n));
+        if (!m.normal_map && length > 1e-6) p.n = n / length;
+    } else if (m.direction_map) {
+        const glm::dvec3 direction = vector(m.direction_map, m.encoding, x, y);
+        const double length = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+        if (length > 1e-6) t = glm::dvec3(direction.x / length, direction.y / length, 0.0);
+    }
+    p.t = perpendicular(t, p.n);
+    p.b = glm::cross(p.n, p.t);
+    p.alpha_x = std::clamp(p.alpha_x, kLeastAlpha, kMostAlpha);
+    p.alpha_y = std::clamp(p.alpha_y, kLeastAlpha, kMostAlpha);
+    p.exponent = std::max(parameter(m.exponent_map, m.exponent, x, y), 0.0);
+    p.kd = color(m.kd_map, m.kd, x, y);
+    p.ks = color(m.specular_map, m.ks, x, y);
+    return p;
+}
+
+}  // namespace burnish

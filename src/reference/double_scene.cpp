@@ -1,0 +1,74 @@
+#include "reference/double_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <burnish/error.hpp>
+
+namespace burnish::reference {
+
+namespace {
+
+[[noreturn]] void refuse(const Material& material, const char* what) {
+    throw Error(ErrorCode::bad_program,
+                fmt::format("material '{}': {}, the double renderer has reflectance models of "
+                            "opaque meshes only",
+                            material.name, what));
+}
+
+std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
+    std::vector<DoubleVertex> vertices;
+    vertices.reserve(mesh.vertex_count());
+    for (const VertexFrame& v : mesh.frames()) {
+        const glm::dvec3 tangent{glm::vec3(v.tangent)}, normal(v.normal);
+        vertices.push_back({glm::dvec3(v.position), tangent,
+                            glm::cross(normal, tangent) * static_cast<double>(v.tangent.w), normal,
+                            glm::dvec2(v.uv.x, 1.0 - static_cast<double>(v.uv.y))});
+    }
+    return vertices;
+}
+
+std::shared_ptr<const SurfaceSampler> surface_of_material(
+    const Material& material, const std::optional<Machine>& layer_machine) {
+    if (!layer_machine) return exact_surface(material);
+    return layer_surface(material, material_layer(material, *layer_machine));
+}
+
+DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine) {
+    static const Material kDefault;
+    const Material& material = object.material ? *object.material : kDefault;
+    const auto* mesh = std::get_if<Mesh>(&object.geometry);
+    if (mesh == nullptr) refuse(material, "vertices instead of a mesh");
+    if (material.program) refuse(material, "a program");
+    if (material.model == Model::text) refuse(material, "a model given as text");
+    if (material.alpha_test.pass != Comparison::always) refuse(material, "an alpha test");
+    if (object.raster.blend) refuse(material, "blending");
+    return {double_vertices(*mesh),
+            {mesh->indices().begin(), mesh->indices().end()},
+            glm::dmat4(object.world_from_object),
+            material.model,
+            surface_of_material(material, layer_machine),
+            object.raster.depth_test,
+            object.raster.depth_write,
+            object.raster.cull};
+}
+
+}  // namespace
+
+DoubleScene double_scene(const Scene& scene, int width, int height,
+                         const std::optional<Machine>& layer_machine) {
+    DoubleScene out;
+    out.view = make_view(scene.camera, width, height);
+    out.viewer = scene.machine.viewer;
+    out.tangent_frames = scene.machine.tangent_frames;
+    out.ambient = glm::dvec3(scene.ambient);
+    out.background = glm::dvec4(scene.background);
+    for (const Light& light : scene.lights) {
+        out.lights.push_back({glm::dvec3(light.position), light.position_w == 0.0F ? 0.0 : 1.0,
+                              glm::dvec3(light.color) * static_cast<double>(light.intensity)});
+    }
+    for (const Object& object : scene.objects)
+        out.objects.push_back(double_object(object, layer_machine));
+    return out;
+}
+
+}  // namespace burnish::reference

@@ -1,0 +1,310 @@
+#include "reference/render_double.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+
+#include "reference/shade.hpp"
+#include "reference/tangent_frame.hpp"
+
+namespace burnish {
+namespace reference {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Side of the squares of pixels that workers take. With 1024 samples a pixel it keeps what they
+/// need at 9 MB.
+constexpr int kTile = 16;
+constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
+
+/// An object's surface under the scene's lights, all in its own space.
+class ObjectShader {
+  public:
+    ObjectShader(const DoubleScene& scene, const DoubleObject& object)
+        : m_object(object),
+          m_ambient(scene.ambient),
+          m_tangent_frames(scene.tangent_frames),
+          m_eye_w(scene.viewer == Viewer::local ? 1.0 : 0.0),
+          m_lights(scene.lights) {
+        const double determinant = glm::determinant(object.world_from_object);
+        if (determinant == 0.0 || !std::isfinite(determinant))
+            throw Error(ErrorCode::bad_option, "object matrix has no inverse");
+        const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
+        m_eye = glm::dvec3(object_from_world *
+                           glm::dvec4(m_eye_w == 1.0 ? scene.view.eye : scene.view.back, m_eye_w));
+        for (DoubleLight& light : m_lights) {
+            light.position =
+                glm::dvec3(object_from_world * glm::dvec4(light.position, light.position_w));
+        }
+    }
+
+    /// `weight` of the three corners of triangle `number`.
+    [[nodiscard]] glm::dvec3 color(std::uint32_t number, const glm::dvec3& weight) const {
+        SurfacePoint point{{}, weight};
+        for (std::size_t i = 0; i < 3; ++i)
+            point.corner[i] = &m_object.vertices[m_object.indices[std::size_t{3} * number + i]];
+        const TangentFrame frame = tangent_frame(point, m_tangent_frames);
+        const glm::dvec3 position = point.mean(&DoubleVertex::position);
+        const Surface surface = m_object.surface->at(point.mean(&DoubleVertex::uv));
+        const glm::dvec3 v = normalised(m_eye - position * m_eye_w);
+        glm::dvec3 sum = m_ambient;
+        for (const DoubleLight& light : m_lights) {
+            const glm::dvec3 l = normalised(light.position - position * light.position_w);
+            const glm::dvec3 h = normalised(l + v);
+            const Directions to{frame.components(l), frame.components(v), frame.components(h),
+                                glm::dot(h, l)};
+            sum += light.color * reflected(m_object.model, surface, to);
+        }
+        return sum;
+    }
+
+    [[nodiscard]] const DoubleObject& object() const { return m_object; }
+
+  private:
+    const DoubleObject& m_object;
+    glm::dvec3 m_ambient;
+    TangentFrames m_tangent_frames;
+    double m_eye_w;      ///< 0: m_eye is a direction
+    glm::dvec3 m_eye{};  ///< object space
+    std::vector<DoubleLight> m_lights;
+};
+
+bool passes(DepthTest test, double depth, double stored) {
+    switch (test) {
+        case Comparison::never:
+            return false;
+        case Comparison::less:
+            return depth < stored;
+        case Comparison::equal:
+            return depth == stored;
+        case Comparison::lequal:
+            return depth <= stored;
+        case Comparison::greater:
+            return depth > stored;
+        case Comparison::notequal:
+            return depth != stored;
+        case Comparison::gequal:
+            return depth >= stored;
+        case Comparison::always:
+            return true;
+    }
+    return false;
+}
+
+/// One sample of a tile.
+struct Sample {
+    glm::dvec2 position;
+    double depth;
+    std::uint32_t triangle;  ///< the last that passed, or kNothing
+};
+
+/// Everything that workers only read.
+struct Frame {
+    const DoubleScene& scene;
+    FrameSize size;
+    const SamplePattern& pattern;
+    std::vector<ProjectedTriangle> triangles;
+    std::vector<std::vector<std::uint32_t>> rows;  ///< of tiles: triangles, in order
+    std::vector<ObjectShader> shaders;
+};
+
+void sort_into_rows(Frame& frame) {
+    frame.rows.resize(static_cast<std::size_t>((frame.size.height + kTile - 1) / kTile));
+    for (std::uint32_t i = 0; i < frame.triangles.size(); ++i) {
+        const PixelBox& box = frame.triangles[i].box;
+        for (int row = box.y0 / kTile; row <= box.y1 / kTile; ++row)
+            frame.rows[static_cast<std::size_t>(row)].push_back(i);
+    }
+}
+
+/// A square of pixels and their samples.
+class Tile {
+  public:
+    Tile(const Frame& frame, int column, int row)
+        : m_frame(frame),
+          m_row(row),
+          m_left(column * kTile),
+          m_top(row * kTile),
+          m_width(std::min(kTile, frame.size.width - m_left)),
+          m_height(std::min(kTile, frame.size.height - m_top)) {}
+
+    /// Which triangle each sample sees. `samples` is scratch memory.
+    void find_visible(std::vector<Sample>& samples) const {
+        const int count = m_frame.pattern.count();
+        samples.clear();
+        for (int y = 0; y < m_height; ++y) {
+            for (int x = 0; x < m_width; ++x) {
+                for (int s = 0; s < count; ++s)
+                    samples.push_back(
+                        {m_frame.pattern.position(m_left + x, m_top + y, s), 1.0, kNothing});
+            }
+        }
+        for (const std::uint32_t i : m_frame.rows[static_cast<std::size_t>(m_row)])
+            draw(i, samples);
+    }
+
+    /// Returns the number of samples that show something.
+    std::uint64_t shade(const std::vector<Sample>& samples, const PixelSink& sink) const {
+        const auto count = static_cast<std::size_t>(m_frame.pattern.count());
+        std::uint64_t shaded = 0;
+        const Sample* sample = samples.data();
+        for (int y = 0; y < m_height; ++y) {
+            for (int x = 0; x < m_width; ++x) {
+                glm::dvec4 sum(0.0);
+                for (std::size_t s = 0; s < count; ++s, ++sample) {
+                    sum += color(*sample);
+                    if (sample->triangle != kNothing) ++shaded;
+                }
+                sink(m_left + x, m_top + y, sum / static_cast<double>(count));
+            }
+        }
+        return shaded;
+    }
+
+  private:
+    void draw(std::uint32_t index, std::vector<Sample>& samples) const {
+        const ProjectedTriangle& triangle = m_frame.triangles[index];
+        const DoubleObject& object = m_frame.scene.objects[triangle.object];
+        const int count = m_frame.pattern.count();
+        const int x0 = std::max(triangle.box.x0 - m_left, 0),
+                  x1 = std::min(triangle.box.x1 - m_left, m_width - 1),
+                  y0 = std::max(triangle.box.y0 - m_top, 0),
+                  y1 = std::min(triangle.box.y1 - m_top, m_height - 1);
+        for (int y = y0; y <= y1; ++y) {
+            for (int x = x0; x <= x1; ++x) {
+                Sample* sample =
+                    samples.data() + static_cast<std::ptrdiff_t>(y * m_width + x) * count;
+                for (int s = 0; s < count; ++s, ++sample) {
+                    const glm::dvec3 p(sample->position, 1.0);
+                    if (!covers(triangle, p)) continue;
+                    const double depth = glm::dot(triangle.depth, p);
+                    if (!(depth >= 0.0 && depth <= 1.0)) continue;
+                    if (!passes(object.depth_test, depth, sample->depth)) continue;
+                    sample->triangle = index;
+                    if (object.depth_write) sample->depth = depth;
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] glm::dvec4 color(const Sample& sample) const {
+        if (sample.triangle == kNothing) return m_frame.scene.background;
+        const ProjectedTriangle& triangle = m_frame.triangles[sample.triangle];
+        const ObjectShader& shader = m_frame.shaders[triangle.object];
+        const glm::dvec3 weight = weights(triangle, glm::dvec3(sample.position, 1.0));
+        return {shader.color(triangle.number, weight), 1.0};
+    }
+
+    const Frame& m_frame;
+    int m_row, m_left, m_top, m_width, m_height;
+};
+
+}  // namespace
+
+FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern& pattern,
+                  WorkerPool& pool, const PixelSink& sink) {
+    FrameStats stats;
+    const Clock::time_point start = Clock::now();
+    ProjectionCounts counts;
+    Frame frame{scene, size, pattern, project(scene, size, counts), {}, {}};
+    sort_into_rows(frame);
+    for (const DoubleObject& object : scene.objects) frame.shaders.emplace_back(scene, object);
+    stats.triangles = counts.submitted;
+    stats.nonfinite_triangles = counts.nonfinite;
+    stats.degenerate_triangles = counts.degenerate;
+    stats.binned_triangles = frame.triangles.size();
+    stats.geometry_ms = milliseconds_since(start);
+
+    const Clock::time_point tiles = Clock::now();
+    const int columns = (size.width + kTile - 1) / kTile;
+    const auto workers = static_cast<std::size_t>(pool.size());
+    std::vector<std::vector<Sample>> samples(workers);
+    std::vector<std::uint64_t> shaded(workers, 0);
+    stats.tiles_per_worker.resize(workers, 0);
+    for_each_index(pool, static_cast<std::size_t>(columns) * frame.rows.size(), 1,
+                   [&](std::size_t index, int worker) {
+                       const auto w = static_cast<std::size_t>(worker);
+                       const auto i = static_cast<int>(index);
+                       const Tile tile(frame, i % columns, i / columns);
+                       tile.find_visible(samples[w]);
+                       shaded[w] += tile.shade(samples[w], sink);
+                       ++stats.tiles_per_worker[w];
+                   });
+    for (const std::uint64_t count : shaded) stats.shaded_pixels += count;
+    stats.tiles_ms = milliseconds_since(tiles);
+    return stats;
+}
+
+}  // namespace reference
+
+namespace {
+
+template <class Code>
+void store_codes(const glm::dvec4& color, double one, std::byte* to) {
+    for (int c = 0; c < 4; ++c) {
+        const double clamped = color[c] > 0.0 ? std::min(color[c], 1.0) : 0.0;  // NaN gives 0
+        const auto code = static_cast<Code>(std::floor(clamped * one + 0.5));
+        std::memcpy(to + static_cast<std::size_t>(c) * sizeof code, &code, sizeof code);
+    }
+}
+
+void store_floats(const glm::dvec4& color, std::byte* to) {
+    for (int c = 0; c < 4; ++c) {
+        const float value = color[c] > 0.0 ? static_cast<float>(color[c]) : 0.0F;
+        std::memcpy(to + static_cast<std::size_t>(c) * sizeof value, &value, sizeof value);
+    }
+}
+
+void store(const glm::dvec4& color, PixelFormat format, std::byte* to) {
+    switch (format) {
+        case PixelFormat::rgba8:
+            return store_codes<std::uint8_t>(color, 255.0, to);
+        case PixelFormat::rgba16:
+            return store_codes<std::uint16_t>(color, 65535.0, to);
+        case PixelFormat::rgba32f:
+            return store_floats(color, to);
+    }
+}
+
+/// Root of a square up to kMaxDoubleSamples.
+int side_of(int samples) {
+    int side = 1;
+    while (side * side < samples && side * side < kMaxDoubleSamples) ++side;
+    if (samples == side * side) return side;
+    throw Error(ErrorCode::bad_option, fmt::format("{} samples a pixel, expected a square, 1 .. {}",
+                                                   samples, kMaxDoubleSamples));
+}
+
+}  // namespace
+
+FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& pool,
+                         const DoubleOptions& options) {
+    const reference::SamplePattern pattern(side_of(options.samples), options.seed);
+    const reference::FrameSize size{target.width(), target.height()};
+    try {
+        return reference::render(
+            reference::double_scene(scene, size.width, size.height, options.layer_machine), size,
+            pattern, pool, [&](int x, int y, const glm::dvec4& color) {
+                store(color, target.format(),
+                      target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
+            });
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::limit, fmt::format("out of memory for a frame of {}x{} pixels with "
+                                                  "{} samples each",
+                                                  size.width, size.height, options.samples));
+    }
+}
+
+}  // namespace burnish

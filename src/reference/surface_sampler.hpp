@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "models/layer.hpp"
+#include "models/texel.hpp"
+#include "reference/surface.hpp"
+
+namespace burnish::reference {
+
+/// `components` channels of level 0 from `channel` on, each over its largest code, weighted in
+/// double precision.
+glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int channel,
+                          int components);
+
+/// A material at any point of its maps. Either kind filters quantities, not the maps they come
+/// from.
+class SurfaceSampler {
+  public:
+    virtual ~SurfaceSampler() = default;
+    [[nodiscard]] virtual Surface at(const glm::dvec2& uv) const = 0;
+};
+
+/// Quantities in double precision, computed from the maps texel by texel. A border has the colour
+/// of the edge. Throws what TexelSource throws.
+std::unique_ptr<SurfaceSampler> exact_surface(const Material& material);
+
+/// Quantities as they stand in the textures of a machine's layer; those that it does without are
+/// exact.
+std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,
+                                              std::span<const LayerQuantity> layer);
+
+}  // namespace burnish::reference

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+#include <burnish/files.hpp>
+#include <burnish/materials.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "models/texel.hpp"
+#include "tests/run_command.hpp"
+
+namespace burnish {
+namespace {
+
+TEST_F(Command, BakedMaterialIsTheGeneratedOne) {
+    for (const std::string name : {"weave", "lathe", "brushed"}) {
+        ASSERT_EQ(run("bake material " + name + " --seed 5 --size 16 -o out/" + name).code, 0);
+        const TexelSource read(load_material(path("out") / name / "material.toml"));
+        const TexelSource made(generated_material(name, 5, 16));
+        ASSERT_EQ(read.width(), 16);
+        EXPECT_EQ(read.sampler().wrap_s, made.sampler().wrap_s);
+        for (int y = 0; y < 16; ++y) {
+            for (int x = 0; x < 16; ++x) {
+                const TexelParameters a = read.at(x, y), b = made.at(x, y);
+                ASSERT_EQ(a.n, b.n);
+                ASSERT_EQ(a.t, b.t);
+                ASSERT_EQ(a.alpha_x, b.alpha_x);
+                ASSERT_EQ(a.alpha_y, b.alpha_y);
+                ASSERT_EQ(a.exponent, b.exponent);
+                ASSERT_EQ(a.kd, b.kd);
+                ASSERT_EQ(a.ks, b.ks);
+            }
+        }
+    }
+}
+
+TEST_F(Command, BakedMaterialBringsItsTruth) {
+    ASSERT_EQ(run("bake material lathe --size 8 -o d").code, 0);
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path("d")))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"alpha.png", "direction.png", "ks.png",
+                                               "material.toml", "normal.png", "truth_direction.exr",
+                                               "truth_kd.exr", "truth_ks.exr", "truth_normal.exr",
+                                               "truth_parameters.exr"}));
+    // As bytes, an EXR's numbers of 0 .. 1 are rounded: the widths of the texel in the corner.
+    const GeneratedSet set = generated_set("lathe", 1, 8);
+    const Image8 truth = load_image(path("d/truth_parameters.exr"));
+    EXPECT_NEAR(truth.at(0, 0)[0], 255.0F * set.alpha_x[0], 0.51F);
+    EXPECT_NEAR(truth.at(0, 0)[1], 255.0F * set.alpha_y[0], 0.51F);
+}
+
+TEST_F(Command, BakeMaterialErrors) {
+    expect_failure("bake material lath -o d", 2, "material lath, did you mean 'lathe'?");
+    expect_failure("bake material lathe --size 4096 -o d", 2, "--size");
+    expect_failure("bake material lathe", 2, "--output");
+    write(path("file"), "");
+    expect_failure("bake material lathe --size 4 -o file/d", 3, "file/d");
+}
+
+TEST_F(Command, MaterialAndModelReplaceThoseOfEveryMesh) {
+    write_scene("s.toml");
+    write(path("red.toml"), "schema = 1\n[material]\nkd = [1, 0, 0]\nks = 0\nalpha_x = 0.5\n");
+    ASSERT_EQ(run("render s.toml -o plain.png").code, 0);
+    ASSERT_EQ(run("render s.toml --material red.toml -o red.png").code, 0);
+    const Image8 red = load_image(path("red.png"));
+    bool lit = false;
+    for (std::size_t i = 0; i < red.rgba.size(); i += 4) {
+        const bool background = red.rgba[i + 2] == 153;  // 0.6
+        if (background) continue;
+        EXPECT_EQ(red.rgba[i + 1], 0);
+        lit = lit || red.rgba[i] > 128;
+    }
+    EXPECT_TRUE(lit);
+    EXPECT_TRUE(read(path("plain.png")) != read(path("red.png")));
+    EXPECT_EQ(run("render s.toml --model abp_modified -o same.png").code, 0);
+    EXPECT_TRUE(read(path("plain.png")) == read(path("same.png")));
+    expect_failure("render s.toml --model wrd", 2, "--model wrd, did you mean 'ward'?");
+    expect_failure("render s.toml --material none.toml", 3, "none.toml: No such file");
+    write(path("pipe.toml"), "schema = 1\n[material]\nunits = []\n");
+    expect_failure("render s.toml --material pipe.toml --model ward", 2,
+                   "material 'pipe' is a pipeline");
+}
+
+TEST_F(Command, AnisotropyAsNumbers) {
+    // 0.25 * 0.64 + 0.36 along the direction, 0.25 across it.
+    EXPECT_EQ(run("bake anisotropy --roughness 0.5 --strength 0.6").out,
+              "alpha_x = 0.52\nalpha_y = 0.25\ndirection = 0\n");
+    const Result json = run("bake anisotropy --alpha-x 0.25 --alpha-y 0.52 --json");
+    EXPECT_SAYS(json.out, "\"roughnessFactor\": 0.5, \"anisotropyStrength\": 0.6");
+    EXPECT_SAYS(json.out, "\"anisotropyRotation\": 1.570796") << "across our tangent";
+    expect_failure("bake anisotropy", 2, "expected one of");
+    expect_failure("bake anisotropy --roughness 0.5 --alpha-x 0.5", 2, "expected one of");
+    expect_failure("bake anisotropy --alpha-x 0.5", 2, "expected --alpha-x and --alpha-y");
+    expect_failure("bake anisotropy --rotation nan", 2, "");
+    expect_failure("bake anisotropy --texture t.png", 2, "textures need -o DIR");
+    expect_failure("bake anisotropy --texture t.png -o d", 3, "t.png");
+    expect_failure("bake anisotropy --roughness-texture t.png --roughness 1", 2,
+                   "without --texture");
+}
+
+TEST_F(Command, AnisotropyAsTexturesThereAndBack) {
+    write(path("m.toml"),
+          "schema = 1\n[material]\nalpha_x = 0.25\nalpha_y = 0.52\ndirection = 30\n");
+    ASSERT_EQ(run("bake anisotropy --material m.toml -o gltf").code, 0);
+    const Image8 texture = load_image(path("gltf/anisotropy.png"));
+    // Across a tangent at 30 degrees: 120, which as a line is -60: (0.5, -0.866).
+    EXPECT_NEAR(texture.at(0, 0)[0], 127.5 * 1.5, 1.0);
+    EXPECT_NEAR(texture.at(0, 0)[1], 127.5 * (1.0 - 0.8660), 1.0);
+    EXPECT_EQ(texture.at(0, 0)[2], 153);  // 0.6
+    EXPECT_NEAR(load_image(path("gltf/roughness.png")).at(0, 0)[1], 127.5, 1.0);
+    ASSERT_EQ(run("bake anisotropy --texture gltf/anisotropy.png --roughness-texture "
+                  "gltf/roughness.png -o ours")
+                  .code,
+              0);
+    const TexelParameters p = TexelSource(load_material(path("ours/material.toml"))).at(0, 0);
+    EXPECT_NEAR(p.alpha_x, 0.52, 0.005);
+    EXPECT_NEAR(p.alpha_y, 0.25, 0.005);
+    EXPECT_NEAR(p.t.x, 0.5, 0.02);
+    EXPECT_NEAR(p.t.y, -0.866, 0.02);
+}
+
+/// Those that show the library, but for what is drawn.
+TEST_F(Command, ScenesOfTheLibraryAreRead) {
+    for (const char* name : {"ward", "fibres", "generated", "generated_spheres"}) {
+        const LoadedScene loaded = load_scene(std::filesystem::path(BURNISH_SOURCE_DIR) / "meshes" /
+                                              (std::string(name) + ".toml"));
+        EXPECT_GE(loaded.scene.objects.size(), 8U);
+    }
+}
+
+}  // namespace
+}  // namespace burnish
