@@ -105,7 +105,11 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     for (const ModelTerm& term : terms) {
         if (term.scalar) roots.push_back(term.scalar.get());
     }
-    Cover cover(roots, ranges, machine.numbers, machine.stage_fetches);
+    const Machine room = machine.multipass ? with_room(machine) : machine;
+    const TablePrice price = machine.stage_fetches ? TablePrice::fetch
+                             : room.stage_fetches  ? TablePrice::passes
+                                                   : TablePrice::none;
+    Cover cover(roots, ranges, machine.numbers, price);
     task.terms = &terms;
     task.varies = source.varies();
     task.light = light;
@@ -114,7 +118,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
     const Plan plan = make_plan(task, cover, ranges);
-    Schedule scheduled = schedule(plan, machine);
+    Schedule scheduled = schedule(plan, room, machine);
     BakedTextures baked = bake(plan, scheduled, source, machine.numbers);
 
     CompiledModel compiled;

@@ -334,6 +334,8 @@ class Planner {
                 return in_units(lower(first ? *e.args[1] : *e.args[0]), bound.value.x);
             }
             case ExprOp::power: {
+                if (e.args[1]->op != ExprOp::constant || squarings(e.args[1]->value.x) < 0)
+                    needs_table(e);
                 Operand x = lower(*e.args[0]);
                 for (int k = squarings(e.args[1]->value.x); k > 0; --k) {
                     const double unit = x.unit * x.unit;
@@ -342,10 +344,13 @@ class Planner {
                 return x;
             }
             default:
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: needs a table, the machine has no dependent fetch",
-                                        e.line, e.column));
+                needs_table(e);
         }
+    }
+    [[noreturn]] static void needs_table(const Expr& e) {
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("{}:{}: needs a table, the machine has no dependent fetch", e.line,
+                                e.column));
     }
 
     Operand scalar_quantity(const Expr& e) {
@@ -550,11 +555,20 @@ class Planner {
 
     PlanAxis axis(const Expr& arg, const Interval& range) {
         PlanAxis a;
-        const Operand x = lower(arg);
+        Operand x = lower(arg);
         a.input = x.input;
         a.unit = x.unit;
         a.is_signed = (x.input.mapping == Mapping::signed_identity && range.low < 0.0) ||
                       (x.input.mapping == Mapping::signed_negate && range.high > 0.0);
+        if (a.is_signed && m_task.numbers == NumberModel::nine_bit) {
+            // Frames hold no signs: x/2 + 1/2.
+            PlanValue v;
+            v.products = 2;
+            v.factors = {x.input, constant(0.5), one(), constant(0.5)};
+            x.input = {add(v), Mapping::expand};
+            a.input = x.input;
+            a.is_signed = false;
+        }
         if (arg.op == ExprOp::quantity) {
             const int index = m_plan.values[static_cast<std::size_t>(x.input.value)].index;
             const PlanQuantity& q = m_plan.quantities[static_cast<std::size_t>(index)];

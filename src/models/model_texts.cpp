@@ -93,7 +93,7 @@ nv = max(1/32, dot(n, v))
 gv = sqrt(dot(v, P)^2 + dot(v, Q)^2 + nv^2)
 gl = max(1/32, sqrt(dot(l, P)^2 + dot(l, Q)^2 + nl^2))
 r = nl / gl
-G = r / max(1/64, r + nv / gv) * (1 / gv)
+G = min(1, r / max(1/64, r + nv / gv)) * (1 / gv)
 (A + C * F) * (D * G) + kd * nl)";
         case Model::text:
             break;
