@@ -300,7 +300,7 @@ void Tape::run(const glm::dvec3* inputs, glm::dvec3* roots) {
 
 std::string print_expression(const Expr& e) {
     const auto arg = [&](std::size_t i) { return print_expression(*e.args[i]); };
-    const auto binary = [&](const char* op) { return "(" + arg(0) + op + arg(1) + ")"; };
+    const auto binary = [&](const char* op) { return fmt::format("({}{}{})", arg(0), op, arg(1)); };
     const auto call = [&](const char* name) {
         return e.args.size() == 1 ? fmt::format("{}({})", name, arg(0))
                                   : fmt::format("{}({}, {})", name, arg(0), arg(1));
@@ -314,8 +314,8 @@ std::string print_expression(const Expr& e) {
                 return fmt::format("({} - {})", arg(0), print_expression(*e.args[1]->args[1]));
             return binary(" + ");
         case ExprOp::multiply:
-            if (is_negation(e)) return "-" + arg(1);
-            return e.args[0] == e.args[1] ? arg(0) + "^2" : binary(" * ");
+            if (is_negation(e)) return fmt::format("-{}", arg(1));
+            return e.args[0] == e.args[1] ? fmt::format("{}^2", arg(0)) : binary(" * ");
         case ExprOp::divide:
             return binary(" / ");
         case ExprOp::power:

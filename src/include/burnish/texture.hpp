@@ -68,9 +68,9 @@ enum class Filter {
 
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border, mirrored_repeat };
 
-/// What the ends of a table's coordinate stand for. Other than `edges` is for fetches between stages
-/// alone, which look functions up: there the ends of the domain are the centres of the first and
-/// the last texel, so that a linear filter never leaves the function.
+/// What the ends of a table's coordinate stand for. Other than `edges` is for fetches between
+/// stages alone, which look functions up: there the ends of the domain are the centres of the first
+/// and the last texel, so that a linear filter never leaves the function.
 enum class TexelSpan {
     edges,           ///< 0 and 1 are the outer edges of the texels, as everywhere
     centers,         ///< 0 and 1 are their centres
