@@ -54,7 +54,7 @@ std::string draw_models(const fs::path& directory) {
             if (i < 2) table += fmt::format(" {} |", verdict);
         }
         table += "\n";
-        save_image(sheet.image(), directory / fmt::format("{}.png", model_names()[model]));
+        save_image(sheet.image(), directory / fmt::format("model_{}.png", model_names()[model]));
     }
     return table;
 }
@@ -70,7 +70,7 @@ void draw_file(const fs::path& file, const fs::path& directory) {
         renderer.render(scene, frame);
         sheet.place(0, static_cast<int>(i), frame);
     }
-    save_image(sheet.image(), directory / file.stem().concat(".png"));
+    save_image(sheet.image(), directory / fmt::format("scene_{}.png", file.stem().string()));
 }
 
 /// u runs the other way, tangents with it: mirrored frames.
