@@ -137,7 +137,9 @@ TEST_F(Command, OptionsChangeThePicture) {
     for (const char* option :
          {"--camera-position 3,0,0.5", "--camera-focal-point 0.5,0,0", "--camera-azimuth 30",
           "--camera-elevation 20", "--camera-zoom 2", "--camera-view-angle 60", "--light 0,-1,0",
-          "--light 0,2,0,1", "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
+          "--light 0,2,0,1", "--light 1,1,1 --light -1,0,1", "--half-vector cube:4",
+          "-D machine.viewer=infinite", "-D machine.normalise_half_vector=false", "--aov bitangent",
+          "--aov stripes", "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
         const Result result = run(std::string("render s.toml -o other.png ") + option);
         ASSERT_EQ(result.code, 0) << option << result.err;
         EXPECT_TRUE(load_image(path("other.png")).rgba != plain.rgba) << option;

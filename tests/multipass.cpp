@@ -8,12 +8,15 @@
 #include <array>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
+#include <burnish/renderer.hpp>
+#include <burnish/shapes.hpp>
 #include <burnish/trace.hpp>
 #include <cstring>
 #include <set>
 #include <string>
 
 #include "machine/interpreter.hpp"
+#include "models/compile_model.hpp"
 #include "tests/random_program.hpp"
 #include "tests/scenes.hpp"
 
@@ -192,13 +195,30 @@ TEST(Multipass, ObstaclesAreNamed) {
                   small(1, 4)),
          "spare0.rgb is read by color_sum");
     says(obstacle("{ rgb { spare0 = tex0 * tex1; } }\n{ rgb { spare0 = spare0 * tex2; } }\n"
-                  "out.rgb = spare0 * tex3;",
+                  "out.rgb = spare0 * tex3 + tex0;",
                   small(1, 2)),
-         "2 textures and 1 frames of earlier passes are read, with 2 texture units");
+         "3 textures and 1 frames of earlier passes are read, with 2 texture units");
     says(obstacle("{ rgb { spare0 = tex0 * tex1; } }\n{ rgb { spare0 = spare0 * tex1; } }\n"
                   "out.rgb = spare0;",
                   small(1, 2), std::vector<UnitTexels>(2, kTexels), true),
          "2 textures and 1 frames");
+}
+
+// One texture more in the final combiner than units beside a frame: the product before it gets a
+// frame of its own.
+TEST(Multipass, AProductBeforeTheLastPassGetsAFrame) {
+    const std::vector<UnitTexels> units(4, kTexels);
+    const CombinerProgram program = parsed(
+        "{ rgb { spare0 = tex0 * tex1; } }\n{ rgb { spare0 = spare0 * tex2; } }\n"
+        "out.rgb = spare0 * tex3;");
+    const auto passes = split_into_passes(program, small(1, 2), units);
+    ASSERT_EQ(passes.size(), 3U);
+    const PassUnit first_frame{.frame = 0}, second_frame{.frame = 1};
+    EXPECT_NE(std::ranges::find(passes[1].units, first_frame), passes[1].units.end());
+    EXPECT_NE(std::ranges::find(passes[2].units, second_frame), passes[2].units.end());
+    RegisterFile inputs;
+    for (int i = 0; i < 4; ++i) inputs[tex(i)] = {200 + i, 255 - 7 * i, 90 + i, 255};
+    EXPECT_EQ(run_passes(passes, small(1, 2), inputs), run_combiners(program, roomy(), inputs));
 }
 
 /// A register that no later stage needs with its sign may hold one: the frame clamps it as the
@@ -369,6 +389,45 @@ TEST(Multipass, RegistersAreThoseOfTheWholeProgram) {
                 std::memcmp(one.row(y), several.row(y), 4 * static_cast<std::size_t>(scene.width)),
                 0)
                 << stages << " stages, row " << y;
+    }
+}
+
+// Models whose tables the NV2A reads before its combiners only: passes with dependent reads against
+// the same program with fetches between stages, byte by byte.
+TEST(Multipass, TablesBecomeDependentReads) {
+    constexpr std::array kModels{Model::abp,  Model::banks,     Model::kajiya_kay,
+                                 Model::ward, Model::ward_duer, Model::ashikhmin_shirley,
+                                 Model::ggx};
+    for (const Model model : kModels) {
+        Material material;
+        material.model = model;
+        material.alpha_x = 0.15F;
+        material.exponent = 12.0F;
+        material.kd = {0.1F, 0.12F, 0.2F};
+        material.ks = {0.8F, 0.7F, 0.6F};
+        Machine machine = machine_profile("nv2a");
+        machine.multipass = true;
+        auto program = std::make_shared<Material>();
+        program->program =
+            compile_model(material, machine, glm::vec3(0.5F), glm::vec3(0.02F)).program;
+        Scene scene;
+        scene.width = scene.height = 96;
+        scene.lights.push_back(Light{.position = {0.4F, 0.5F, 0.8F}});
+        scene.objects.push_back({Mesh(shapes::sphere(24, 12)), program, glm::mat4(1.0F), {}});
+        Renderer renderer;
+        Framebuffer passes(96, 96), whole(96, 96);
+        scene.machine = machine;
+        renderer.render(scene, passes);
+        scene.machine = with_room(machine);
+        scene.machine.multipass = false;
+        renderer.render(scene, whole);
+        int different = 0;
+        for (int y = 0; y < 96; ++y) {
+            for (int x = 0; x < 4 * 96; ++x) different += passes.row(y)[x] != whole.row(y)[x];
+        }
+        EXPECT_EQ(different, 0) << "model " << static_cast<int>(model);
+        const std::vector<UnitTexels> units(16, kTexels);
+        EXPECT_GT(split_into_passes(program->program->combiners, machine, units).size(), 1U);
     }
 }
 

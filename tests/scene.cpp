@@ -198,6 +198,30 @@ TEST_F(SceneFiles, FilesThatCannotBeReadAreIoErrors) {
     EXPECT_EQ(code(directory()), ErrorCode::io);
 }
 
+TEST_F(SceneFiles, VectorsOfAMachine) {
+    const Machine m = scene(
+                          "[machine]\nhalf_vector = \"cube:32\"\nhalf_vector_bits = 16\n"
+                          "viewer = \"infinite\"\ntangent_frames = \"orthonormal\"\n")
+                          .machine;
+    EXPECT_EQ(m.half_vector, HalfVector::cube);
+    EXPECT_EQ(m.half_vector_size, 32);
+    EXPECT_EQ(m.half_vector_bits, 16);
+    EXPECT_EQ(m.viewer, Viewer::infinite);
+    EXPECT_EQ(m.tangent_frames, TangentFrames::orthonormal);
+    EXPECT_FALSE(scene("[machine]\nnormalise_half_vector = false\n").machine.normalise_half_vector);
+    EXPECT_EQ(bad("[machine]\nhalf_vector = \"cube:0\"\n"),
+              "FILE:3: half_vector 'cube:0', expected pixel, vertex or cube:N with N = 1 .. 1024, "
+              "in [machine]");
+    EXPECT_SAYS(bad("[machine]\nprofile = \"nv2a\"\nhalf_vector = \"cube:8\"\n"
+                    "half_vector_bits = 9\n"),
+                "FILE:3: half_vector_bits = 9 with numbers = nine_bit, expected 8");
+    EXPECT_SAYS(bad("[machine]\nhalf_vector_bits = 17\n"), "half_vector_bits");
+    EXPECT_SAYS(bad("[machine]\nviewer = \"far\"\n"), "expected local, infinite");
+    EXPECT_SAYS(bad("[machine]\ntangent_frames = \"derivatives\"\n"), "did you mean 'derivative'?");
+    EXPECT_SAYS(bad("[machine]\nhalf_vector = \"vertex\"\ntangent_frames = \"derivative\"\n"),
+                "expected half_vector = pixel");
+}
+
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
     const std::vector<std::string> texts{"[machine]\nfilter_order = \"after\"\n",

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <burnish/files.hpp>
 #include <string>
@@ -124,6 +125,22 @@ TEST_F(TraceCommand, TakesTheOptionsOfAPicture) {
     for (const char* option : {"--camera-azimuth 30", "--light 0,-1,0", "--camera-zoom 2",
                                "--machine geforce256", "--half-vector vertex"})
         EXPECT_NE(run("trace " + at + "--json " + option).out, plain) << option;
+}
+
+TEST_F(TraceCommand, EveryLight) {
+    write_scene("s.toml");
+    const std::string at = "s.toml --pixel 20,15 --light 0,0.3,1 --light 1,0,1 --light -1,0.5,1,1";
+    const Json f = json(at)["fragment"];
+    ASSERT_EQ(f["further_lights"].list.size(), 2U);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double sum = f["light_codes"][c].number;
+        for (const Json& light : f["further_lights"].list) sum += light["codes"][c].number;
+        EXPECT_EQ(f["codes"][c].number, std::min(sum, 16384.0));
+    }
+    EXPECT_EQ(f["further_lights"][1]["stages"].list.size(), f["stages"].list.size());
+    const std::string text = run("trace " + at).out;
+    for (const char* part : {"light 1 of 3\n", "light 2 of 3\n", "light 3 of 3\n", "\nall lights"})
+        EXPECT_SAYS(text, part);
 }
 
 TEST_F(TraceCommand, BareMeshes) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "machine/ranges.hpp"
+#include "machine/value_passes.hpp"
 
 namespace burnish {
 
@@ -108,14 +109,9 @@ class Splitter {
           m_stages(static_cast<int>(program.stages.size())),
           m_ranges(register_ranges(program, machine, units)) {}
 
-    std::vector<ProgramPass> split() {
-        if (!continue_at(0, {})) {
-            throw Error(ErrorCode::bad_program,
-                        fmt::format("cannot be split into passes for machine '{}': {}",
-                                    m_machine.name, m_obstacle));
-        }
-        return std::move(m_passes);
-    }
+    bool split() { return continue_at(0, {}); }
+    std::vector<ProgramPass> take() { return std::move(m_passes); }
+    [[nodiscard]] const std::string& obstacle() const { return m_obstacle; }
 
   private:
     /// Passes for stages `first` and later and the final combiner; false where there are none.
@@ -376,6 +372,7 @@ Machine with_room(const Machine& machine) {
     roomy.general_stages = 16;
     roomy.texture_units = 16;
     roomy.stage_constants = true;
+    roomy.stage_fetches |= machine.texture_operations != TextureOperations::plain;
     return roomy;
 }
 
@@ -387,12 +384,23 @@ std::vector<ProgramPass> split_into_passes(const CombinerProgram& program, const
                     fmt::format("cannot be split into passes: an 8-bit frame does not hold the "
                                 "registers of machine '{}'",
                                 machine.name));
-    for (const GeneralStage& stage : program.stages) {
-        if (!stage.fetches.empty())
-            throw Error(ErrorCode::bad_program,
-                        "cannot be split into passes: texture fetches between general stages");
+    const bool fetches =
+        std::any_of(program.stages.begin(), program.stages.end(),
+                    [](const GeneralStage& stage) { return !stage.fetches.empty(); });
+    std::string obstacle;
+    if (!fetches) {
+        Splitter splitter(program, machine, units, fixed);
+        if (splitter.split()) return splitter.take();
+        obstacle = splitter.obstacle();
     }
-    return Splitter(program, machine, units, fixed).split();
+    if (!fixed) {
+        std::string why;
+        if (auto passes = passes_by_value(program, machine, units, why)) return *std::move(passes);
+        obstacle += (obstacle.empty() ? "" : "; value by value: ") + why;
+    }
+    throw Error(
+        ErrorCode::bad_program,
+        fmt::format("cannot be split into passes for machine '{}': {}", machine.name, obstacle));
 }
 
 }  // namespace burnish

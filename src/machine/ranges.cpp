@@ -178,6 +178,13 @@ std::vector<RegisterRanges> register_ranges(const CombinerProgram& program, cons
     std::vector<RegisterRanges> after{ranges};
     for (const GeneralStage& stage : program.stages) {
         RegisterRanges before = after.back();
+        for (const StageFetch& fetch : stage.fetches) {
+            const auto unit = static_cast<std::size_t>(fetch.destination) -
+                              static_cast<std::size_t>(Register::tex0);
+            const bool is_signed = unit < units.size() && units[unit] == UnitTexels::signed_texels;
+            for (const bool alpha : {false, true})
+                before[{fetch.destination, alpha}] = {is_signed ? -kOne - 1 : 0, kOne};
+        }
         set_constants(program, &stage, before);
         after.push_back(before);
         StageRanges(machine).run(stage, before, after.back());

@@ -70,10 +70,8 @@ class TexelImage {
             m_bytes.at(x, y)[channel] = static_cast<std::uint8_t>(code);
         }
     }
-    TexturePtr texture(const Sampler& sampler, TextureTarget target = TextureTarget::two_d) const {
-        TextureDescription description;
-        description.sampler = sampler;
-        description.target = target;
+    TexturePtr texture(const TextureDescription& of) const {
+        TextureDescription description = of;
         if (m_numbers == NumberModel::wide) {
             description.format = TexelFormat::rgba16;
             return std::make_shared<const Texture>(std::span(&m_words, 1), description);
@@ -106,9 +104,9 @@ TexturePtr table_texture(const PlanTable& table, NumberModel numbers) {
         return table.axes[axis].is_signed ? TexelSpan::signed_centers : TexelSpan::centers;
     };
     sampler.span_s = span(0);
-    if (height == 1) return image.texture(sampler, TextureTarget::one_d);
-    sampler.span_t = span(1);
-    return image.texture(sampler);
+    if (height > 1) sampler.span_t = span(1);
+    return image.texture(
+        {.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d, .sampler = sampler});
 }
 
 /// How the codes of a quantity are read.
@@ -187,7 +185,9 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, const TexelSource
         }
     }
     for (std::size_t i = 0; i < images.size(); ++i) {
-        if (images[i]) baked.units[i] = images[i]->texture(source.sampler());
+        if (!images[i]) continue;
+        baked.units[i] =
+            images[i]->texture({.sampler = source.sampler(), .box_mipmaps = source.has_levels()});
     }
     for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
         LayerQuantity d = description(plan.quantities[i], numbers);

@@ -46,6 +46,7 @@ std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const E
             for (std::size_t i = 0; i < at.size(); ++i) {
                 QuantityValues& v = values[i];
                 const double length = std::sqrt(glm::dot(at[i], at[i]));
+                if (first) v.somewhere = at[i];
                 v.low = first ? at[i] : glm::min(v.low, at[i]);
                 v.high = first ? at[i] : glm::max(v.high, at[i]);
                 v.shortest = first ? length : std::min(v.shortest, length);
@@ -81,7 +82,9 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     std::vector<std::pair<const Expr*, glm::dvec3>> constants;
     std::vector<LayerQuantity> constant_layer;
     for (const auto& [quantity, v] : task.quantities) {
-        if (quantity->kind == ValueKind::vector || v.low != v.high) continue;
+        if (v.low != v.high) continue;
+        // Registers hold no signs in constants; a vector of length 0 is none.
+        if (quantity->kind == ValueKind::vector && v.longest > 0.0) continue;
         constants.emplace_back(quantity, v.low);
         LayerQuantity same;
         same.name = quantity->name;
@@ -105,7 +108,11 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     for (const ModelTerm& term : terms) {
         if (term.scalar) roots.push_back(term.scalar.get());
     }
-    Cover cover(roots, ranges, machine.numbers, machine.stage_fetches);
+    const Machine room = machine.multipass ? with_room(machine) : machine;
+    const TablePrice price = machine.stage_fetches ? TablePrice::fetch
+                             : room.stage_fetches  ? TablePrice::passes
+                                                   : TablePrice::none;
+    Cover cover(roots, ranges, machine.numbers, price);
     task.terms = &terms;
     task.varies = source.varies();
     task.light = light;
@@ -114,7 +121,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
     const Plan plan = make_plan(task, cover, ranges);
-    Schedule scheduled = schedule(plan, machine);
+    Schedule scheduled = schedule(plan, room, machine);
     BakedTextures baked = bake(plan, scheduled, source, machine.numbers);
 
     CompiledModel compiled;

@@ -21,6 +21,9 @@ constexpr std::size_t kMostArguments = 2;
 /// In halves of a stage's portion: what a model is charged for.
 constexpr double kOperation = 1.0, kTable1d = 2.0, kTable2d = 3.5;
 
+/// A pass for the coordinates, one for the texel, in the place of a few operations.
+constexpr double kPasses = 6.0;
+
 /// And for interpolation that is off by the table's whole height.
 constexpr double kRoughness = 1000.0;
 
@@ -104,8 +107,8 @@ Interval Ranges::computed(const Expr& e) {
 }
 
 Cover::Cover(const std::vector<const Expr*>& roots, Ranges& ranges, NumberModel numbers,
-             bool dependent_fetches)
-    : m_ranges(ranges), m_numbers(numbers), m_dependent_fetches(dependent_fetches) {
+             TablePrice tables)
+    : m_ranges(ranges), m_numbers(numbers), m_price(tables) {
     for (const Expr* root : roots) choose(*root);
 }
 
@@ -151,8 +154,9 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
 }
 
 double Cover::table_cost(const Expr& e, const NodeSet& cut) {
-    if (!m_dependent_fetches || cut.empty() || cut.contains(&e)) return kInfinity;
+    if (m_price == TablePrice::none || cut.empty() || cut.contains(&e)) return kInfinity;
     double cost = cut.size() == 1 ? kTable1d : kTable2d;
+    if (m_price == TablePrice::passes) cost += kPasses;
     bool of_pixel = false;
     for (const Expr* arg : cut) {
         if (arg->kind != ValueKind::scalar || !bounded(*arg)) return kInfinity;
@@ -216,7 +220,7 @@ const Cover::Way& Cover::best(const Expr& e) {
         way.cut.args.assign(cut.begin(), cut.end());
     }
     // What is computed is as good as what is looked up, or better: a tie is the combiners'.
-    if (hard && way.cost == kInfinity && m_dependent_fetches) {
+    if (hard && way.cost == kInfinity && m_price != TablePrice::none) {
         throw Error(ErrorCode::bad_program,
                     fmt::format("{}:{}: a table that has no bound: expected arguments that stay "
                                 "finite, as with max(1/32, ...)",

@@ -33,16 +33,19 @@ struct TableCut {
     std::vector<const Expr*> args;
 };
 
+/// What a table costs besides texels: nothing, passes of its own, or it cannot be had.
+enum class TablePrice { fetch, passes, none };
+
 /// What the combiners cannot do becomes tables: the cheapest way to compute `roots`, all scalars of
 /// the pixel, from dot products, values of the pixel and quantities. As in technology mapping for
 /// look-up tables (Cong and Ding, FlowMap, 1994), every node has cuts of at most two nodes below it
 /// that determine it; a node is computed by combiners from its arguments, or looked up by a cut.
 class Cover {
   public:
-    /// @param dependent_fetches  without them only powers of two can be had, by squaring
     /// @param numbers  how fine tables can be
+    /// @param tables  without them only powers of two can be had, by squaring
     Cover(const std::vector<const Expr*>& roots, Ranges& ranges, NumberModel numbers,
-          bool dependent_fetches);
+          TablePrice tables);
 
     /// How a node that is not a leaf is computed: null by the combiners.
     [[nodiscard]] const TableCut* table(const Expr& e) const;
@@ -63,7 +66,7 @@ class Cover {
 
     Ranges& m_ranges;
     NumberModel m_numbers;
-    bool m_dependent_fetches;
+    TablePrice m_price;
     std::map<const Expr*, Way, ByAge> m_best;
     std::map<const Expr*, std::vector<NodeSet>, ByAge> m_cuts;
     NodeSet m_chosen;

@@ -164,6 +164,9 @@ ExprPtr ExprBuilder::add(const ExprPtr& a, const ExprPtr& b) {
 ExprPtr ExprBuilder::multiply(const ExprPtr& a, const ExprPtr& b) {
     if (is_number(*a, 1.0)) return b;
     if (is_number(*b, 1.0)) return a;
+    if (a->kind == ValueKind::scalar && b->kind == ValueKind::scalar &&
+        (is_number(*a, 0.0) || is_number(*b, 0.0)))
+        return number(0.0);
     // (g . Q) s = g . (Q s) for what is known at the texel: one quantity instead of a product.
     const auto into_dot = [&](const ExprPtr& d, const ExprPtr& s) -> ExprPtr {
         if (d->op != ExprOp::dot || !is_texel_scalar(*s)) return nullptr;
@@ -205,6 +208,9 @@ ExprPtr ExprBuilder::dot(const ExprPtr& a, const ExprPtr& b) {
         const ExprPtr hl = leaf("h_dot_l");
         if (a->name == "h" || b->name == "h") return hl;
         return add(multiply(number(2.0), multiply(hl, hl)), number(-1.0));
+    }
+    for (const ExprPtr& e : {a, b}) {
+        if (e->op == ExprOp::constant && e->value == glm::dvec3(0.0)) return number(0.0);
     }
     const bool swapped = b->op == ExprOp::geometry;
     return node(ExprOp::dot, ValueKind::scalar, {swapped ? b : a, swapped ? a : b});

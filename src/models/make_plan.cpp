@@ -146,18 +146,25 @@ class Planner {
     void scale_half_vector() {
         if (!m_task.scaled_half_vector) return;
         glm::dvec3 box(m_task.most_tilt);
-        bool any = false;
+        std::vector<glm::dvec3> axes;
         for (const auto& [e, reach] : m_reach) {
             if (e->op != ExprOp::dot || !is_half_vector(*e->args[0])) continue;
             const QuantityValues& q = m_task.quantities.at(e->args[1].get());
             if (!q.is_tangent) continue;
             box += reach * q.spread;
-            any = true;
+            axes.push_back(q.somewhere);
         }
         box *= m_task.varies ? 1.5 : 1.05;
-        if (!any) return;
+        // Along one axis alone, or two that are the same, nothing bounds the ellipse.
+        const bool bounded = std::any_of(axes.begin(), axes.end(), [&](const glm::dvec3& a) {
+            const glm::dvec3 across = glm::cross(axes.front(), a);
+            return glm::dot(across, across) >
+                   0.01 * glm::dot(axes.front(), axes.front()) * glm::dot(a, a);
+        });
+        if (!bounded) return;
         m_plan.half_scale = {std::max(1.0, 1.0 / box.x), std::max(1.0, 1.0 / box.y), 1.0};
     }
+
     // --- values ---------------------------------------------------------------------------------
 
     /// Whether an operand may be negative.
@@ -334,6 +341,8 @@ class Planner {
                 return in_units(lower(first ? *e.args[1] : *e.args[0]), bound.value.x);
             }
             case ExprOp::power: {
+                if (e.args[1]->op != ExprOp::constant || squarings(e.args[1]->value.x) < 0)
+                    needs_table(e);
                 Operand x = lower(*e.args[0]);
                 for (int k = squarings(e.args[1]->value.x); k > 0; --k) {
                     const double unit = x.unit * x.unit;
@@ -342,10 +351,13 @@ class Planner {
                 return x;
             }
             default:
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: needs a table, the machine has no dependent fetch",
-                                        e.line, e.column));
+                needs_table(e);
         }
+    }
+    [[noreturn]] static void needs_table(const Expr& e) {
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("{}:{}: needs a table, the machine has no dependent fetch", e.line,
+                                e.column));
     }
 
     Operand scalar_quantity(const Expr& e) {
@@ -550,11 +562,20 @@ class Planner {
 
     PlanAxis axis(const Expr& arg, const Interval& range) {
         PlanAxis a;
-        const Operand x = lower(arg);
+        Operand x = lower(arg);
         a.input = x.input;
         a.unit = x.unit;
         a.is_signed = (x.input.mapping == Mapping::signed_identity && range.low < 0.0) ||
                       (x.input.mapping == Mapping::signed_negate && range.high > 0.0);
+        if (a.is_signed && m_task.numbers == NumberModel::nine_bit) {
+            // Frames hold no signs: x/2 + 1/2.
+            PlanValue v;
+            v.products = 2;
+            v.factors = {x.input, constant(0.5), one(), constant(0.5)};
+            x.input = {add(v), Mapping::expand};
+            a.input = x.input;
+            a.is_signed = false;
+        }
         if (arg.op == ExprOp::quantity) {
             const int index = m_plan.values[static_cast<std::size_t>(x.input.value)].index;
             const PlanQuantity& q = m_plan.quantities[static_cast<std::size_t>(index)];

@@ -13,6 +13,7 @@ namespace burnish {
 struct QuantityValues {
     glm::dvec3 low{0.0}, high{0.0};        ///< component by component
     double shortest = 0.0, longest = 0.0;  ///< of a vector: length
+    glm::dvec3 somewhere{0.0};             ///< at the first texel
     bool is_tangent = true;  ///< a vector that is perpendicular to the normal at every texel
     glm::dvec3 spread{0.0};  ///< of a vector: the largest |component| / length^2
 };

@@ -63,7 +63,7 @@ S = ks / (4 * pi * alpha_x * alpha_y)
 q = dot(h, X)^2 + dot(h, Y)^2
 H = max(3/8, dot(n, h))
 nl = max(0, dot(n, l))
-S * min(3/2, exp(-q / H^2) / H^4) * (nl / max(1/32, h_dot_l^2)) + kd * nl)";
+S * min(2, exp(-q / H^2) / H^4) * (nl / max(1/32, h_dot_l^2)) + kd * nl)";
         case Model::ashikhmin_shirley:
             return R"(U = t * sqrt(2) / alpha_x
 V = b * sqrt(2) / alpha_y
@@ -77,23 +77,22 @@ nv = max(1/32, dot(n, v))
 F = (1 - h_dot_l)^5
 D = H^(q / (1 - H^2))
 (A + C * F) * (D * (nl / max(nl, nv)) * (1 / max(1/8, h_dot_l))) + kd * nl)";
-        case Model::ggx:
-            return R"(X = t / alpha_x
-Y = b / alpha_y
+        case Model::ggx:  // (h.t / ax)^2 + (h.b / ay)^2 + (h.n)^2 = 1 + (h.X)^2 + (h.Y)^2
+            return R"(X = t * sqrt(max(0, 1 / alpha_x^2 - 1))
+Y = b * sqrt(max(0, 1 / alpha_y^2 - 1))
 P = t * alpha_x
 Q = b * alpha_y
 S = 1 / (2 * pi * alpha_x * alpha_y)
 A = ks * S
 C = (1 - ks) * S
-q = dot(h, X)^2 + dot(h, Y)^2 + dot(n, h)^2
-D = 1 / max(3/4, q)^2
+D = 1 / (1 + dot(h, X)^2 + dot(h, Y)^2)^2
 F = (1 - h_dot_l)^5
 nl = max(0, dot(n, l))
 nv = max(1/32, dot(n, v))
 gv = sqrt(dot(v, P)^2 + dot(v, Q)^2 + nv^2)
 gl = max(1/32, sqrt(dot(l, P)^2 + dot(l, Q)^2 + nl^2))
 r = nl / gl
-G = r / max(1/64, r + nv / gv) * (1 / gv)
+G = min(1, r / max(1/64, r + nv / gv)) * (1 / gv)
 (A + C * F) * (D * G) + kd * nl)";
         case Model::text:
             break;

@@ -66,7 +66,8 @@ struct Placed {
 
 class Scheduler {
   public:
-    Scheduler(const Plan& plan, const Machine& machine) : m_plan(plan), m_machine(machine) {}
+    Scheduler(const Plan& plan, const Machine& machine, const Machine& target)
+        : m_plan(plan), m_machine(machine), m_target(target) {}
 
     Schedule make() {
         const std::size_t count = m_plan.values.size();
@@ -265,26 +266,34 @@ class Scheduler {
     void add_fetches() {
         for (bool again = true; again;) {
             again = false;
+            std::vector<int> brought;
             for (std::size_t i = 0; i < m_plan.values.size(); ++i) {
                 const PlanValue& v = m_plan.values[i];
                 if (v.op != PlanOp::table || m_ready[i] || m_uses[i] == 0 || !operands_ready(v))
                     continue;
-                const int unit = m_out.tables[at(v.index)];
-                const std::vector<PlanAxis>& axes = m_plan.tables[at(v.index)].axes;
-                StageFetch fetch;
-                fetch.destination = tex(unit);
-                fetch.target = axes.size() == 1 ? FetchTarget::table_1d : FetchTarget::table_2d;
-                for (std::size_t k = 0; k < axes.size(); ++k) {
-                    const Half half = m_where[at(axes[k].input.value)];
-                    fetch.coordinates[k] = {half.reg, static_cast<std::uint8_t>(half.alpha ? 3 : 0),
-                                            false};
-                }
-                m_stage.fetches.push_back(fetch);
+                m_stage.fetches.push_back(fetch_of(v));
                 for_each_operand(v, [&](int k) { --m_uses[at(k)]; });
-                occupy(static_cast<int>(i), {fetch.destination, false});
-                again = true;
+                brought.push_back(static_cast<int>(i));
+            }
+            for (const int i : brought) {
+                occupy(i, {tex(m_out.tables[at(value(i).index)]), false});
+                again = m_target.stage_fetches;
             }
         }
+    }
+
+    /// Numbers are the same in r, g and b; a frame brings blue or alpha to s, red or alpha to t.
+    StageFetch fetch_of(const PlanValue& v) const {
+        const std::vector<PlanAxis>& axes = m_plan.tables[at(v.index)].axes;
+        StageFetch fetch;
+        fetch.destination = tex(m_out.tables[at(v.index)]);
+        fetch.target = axes.size() == 1 ? FetchTarget::table_1d : FetchTarget::table_2d;
+        for (std::size_t k = 0; k < axes.size(); ++k) {
+            const Half half = m_where[at(axes[k].input.value)];
+            const int component = half.alpha ? 3 : k == 0 ? 2 : 0;
+            fetch.coordinates[k] = {half.reg, static_cast<std::uint8_t>(component), false};
+        }
+        return fetch;
     }
 
     /// What a portion of the stage holds already.
@@ -372,7 +381,7 @@ class Scheduler {
         for (const Register reg : kFirst) {
             if (is_free({reg, in_alpha})) return Half{reg, in_alpha};
         }
-        for (int unit = 0; unit < m_machine.texture_units; ++unit) {
+        for (int unit = 0; unit < m_target.texture_units; ++unit) {
             if (is_free({tex(unit), in_alpha})) return Half{tex(unit), in_alpha};
         }
         return std::nullopt;
@@ -436,6 +445,7 @@ class Scheduler {
 
     const Plan& m_plan;
     const Machine& m_machine;
+    const Machine& m_target;
     Schedule m_out;
     std::vector<Half> m_where;
     std::vector<bool> m_ready, m_reserved;
@@ -455,8 +465,8 @@ class Scheduler {
 
 }  // namespace
 
-Schedule schedule(const Plan& plan, const Machine& machine) {
-    return Scheduler(plan, machine).make();
+Schedule schedule(const Plan& plan, const Machine& machine, const Machine& target) {
+    return Scheduler(plan, machine, target).make();
 }
 
 }  // namespace burnish

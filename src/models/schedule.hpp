@@ -22,8 +22,10 @@ struct Schedule {
     int pass_unit = -1;                     ///< brings the third vector, without a texture
 };
 
-/// Lists stages greedily, longest chains first, on a machine with room enough (with_room of
-/// burnish/multipass.hpp). Throws Error{bad_program} that names what is short, and by how much.
-Schedule schedule(const Plan& plan, const Machine& machine);
+/// Lists stages greedily, longest chains first. `machine` may have more room than the one that the
+/// program is for (with_room of burnish/multipass.hpp): results go to registers that `target` has,
+/// and if that one has no fetches between stages, a fetch waits for the next stage where it needs
+/// what another one brings. Throws Error{bad_program} that names what is short, and by how much.
+Schedule schedule(const Plan& plan, const Machine& machine, const Machine& target);
 
 }  // namespace burnish

@@ -113,7 +113,7 @@ TableDomain table_domain(const Expr& function, const std::vector<const Expr*>& a
     TableDomain domain;
     for (const Expr* arg : args) domain.arguments.push_back(ranges.of(*arg));
     Function f(function, args);
-    const double rest = numbers == NumberModel::wide ? 0x1p-13 : 0x1p-9;
+    const double rest = numbers == NumberModel::wide ? 0x1p-12 : 0x1p-9;
     for (std::size_t i = 0; i < args.size(); ++i) {
         if (args[i]->op == ExprOp::quantity) continue;
         Interval& range = domain.arguments[i];

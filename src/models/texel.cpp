@@ -84,6 +84,7 @@ TexelSource::TexelSource(const Material& material) : m_material(material) {
                 ErrorCode::bad_program,
                 fmt::format("material '{}': {} is not two-dimensional", material.name, name));
         m_varies = true;
+        m_has_levels |= map->levels().size() > 1;
         const std::int64_t texels = static_cast<std::int64_t>(map->width()) * map->height();
         if (texels <= most) continue;
         most = texels;

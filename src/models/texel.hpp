@@ -37,6 +37,8 @@ class TexelSource {
     [[nodiscard]] int height() const { return m_height; }
     /// Of the finest map.
     [[nodiscard]] const Sampler& sampler() const { return m_sampler; }
+    /// Whether any map has mip levels; what is made from texels has them then, too.
+    [[nodiscard]] bool has_levels() const { return m_has_levels; }
     /// Whether there is any map.
     [[nodiscard]] bool varies() const { return m_varies; }
     /// 0 <= x < width(), 0 <= y < height(); row 0 on top. Safe from several threads.
@@ -53,7 +55,7 @@ class TexelSource {
     Material m_material;
     Sampler m_sampler;
     int m_width = 1, m_height = 1;
-    bool m_varies = false;
+    bool m_varies = false, m_has_levels = false;
 };
 
 }  // namespace burnish

@@ -69,9 +69,9 @@ glm::dvec3 ggx(const Surface& s, const Directions& to) {
     const auto stretched = [&](const glm::dvec3& x, double cosine) {
         return std::sqrt(square(glm::dot(s.P, x)) + square(glm::dot(s.Q, x)) + square(cosine));
     };
-    const double spread = a.q + square(a.h_n);
+    const double spread = 1.0 + a.q;
     const double shadowing = a.n_l * stretched(to.v, a.n_v) + a.n_v * stretched(to.l, a.n_l);
-    const bool seen = a.n_l > 0.0 && spread > 0.0;
+    const bool seen = a.n_l > 0.0;
     const double lobe = seen ? a.n_l / (square(spread) * shadowing) : 0.0;
     return fresnel(s, to) * lobe + s.kd * a.n_l;
 }

@@ -40,8 +40,12 @@ Surface surface_of(Model model, const TexelParameters& p) {
     Surface s;
     s.n = p.n;
     s.t = p.t;
-    s.X = round ? p.t : p.t / p.alpha_x;
-    s.Y = round ? p.b : p.b / p.alpha_y;
+    const auto narrowing = [&](double alpha) {
+        if (model == Model::ggx) return std::sqrt(1.0 / (alpha * alpha) - 1.0);
+        return round ? 1.0 : 1.0 / alpha;
+    };
+    s.X = p.t * narrowing(p.alpha_x);
+    s.Y = p.b * narrowing(p.alpha_y);
     s.U = p.t * (std::numbers::sqrt2 / p.alpha_x);
     s.V = p.b * (std::numbers::sqrt2 / p.alpha_y);
     s.P = p.t * p.alpha_x;

@@ -11,7 +11,9 @@ namespace burnish::reference {
 /// frame, numbers in all three components.
 struct Surface {
     glm::dvec3 n{0.0}, t{0.0};
-    glm::dvec3 X{0.0}, Y{0.0};  ///< t and b over the widths; of blinn_phong t and b
+    /// t and b over the widths; of blinn_phong t and b; of ggx t and b times sqrt(1 / width^2 - 1),
+    /// since (h.t / ax)^2 + (h.b / ay)^2 + (h.n)^2 is 1 more than (h.X)^2 + (h.Y)^2 then
+    glm::dvec3 X{0.0}, Y{0.0};
     glm::dvec3 U{0.0}, V{0.0};  ///< t and b times the roots of the exponents, sqrt(2) / width
     glm::dvec3 P{0.0}, Q{0.0};  ///< t and b times the widths
     glm::dvec3 ks{0.0}, kd{0.0}, N{0.0};

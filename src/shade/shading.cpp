@@ -338,7 +338,7 @@ void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine&
     shading.unit_states = unit_states(material, machine);
     for (std::size_t i = 0; i < units.size(); ++i) {
         const std::uint32_t bit = 1U << i;
-        if (units[i].frame < 0) continue;
+        if (units[i].frame < 0 && units[i].address < 0) continue;
         shading.unit_states.enabled |= bit;
         shading.unit_states.black &= ~bit;
     }
@@ -372,6 +372,15 @@ std::vector<UnitTexels> unit_texels(const ProgramMaterial& material) {
     return kinds;
 }
 
+/// Whether a unit of the shader works with what another one has.
+bool refers_to_units(const TextureShader& shader) {
+    return std::any_of(shader.units.begin(), shader.units.end(), [](const TextureUnit& unit) {
+        return unit.operation != TextureOperation::none &&
+               unit.operation != TextureOperation::texture_2d &&
+               unit.operation != TextureOperation::pass_through;
+    });
+}
+
 /// The material as a pass has it: its own program, and the textures that it reads.
 ProgramMaterial material_of_pass(const ProgramMaterial& material, const ProgramPass& pass) {
     ProgramMaterial own = material;
@@ -379,47 +388,85 @@ ProgramMaterial material_of_pass(const ProgramMaterial& material, const ProgramP
     own.units.assign(pass.units.size(), nullptr);
     for (std::size_t i = 0; i < pass.units.size(); ++i) {
         const int unit = pass.units[i].material_unit;
-        if (unit >= 0 && unit < static_cast<int>(material.units.size())) {
+        const bool is_table = pass.units[i].address >= 0;
+        if (unit >= 0 && unit < static_cast<int>(material.units.size()) && !is_table) {
             own.units[i] = material.units[static_cast<std::size_t>(unit)];
+        }
+    }
+    if (!material.texture_shader || refers_to_units(*material.texture_shader)) return own;
+    // Units that know nothing of each other went where the pass has room.
+    own.texture_shader.emplace();
+    for (std::size_t i = 0; i < std::min<std::size_t>(own.units.size(), kTextureShaderUnits); ++i) {
+        const auto unit = static_cast<std::size_t>(std::max(pass.units[i].material_unit, 0));
+        if (pass.units[i].material_unit < 0 || pass.units[i].address >= 0) continue;
+        TextureUnit& to = own.texture_shader->units[i];
+        if (unit < kTextureShaderUnits) {
+            to = material.texture_shader->units[unit];
+        } else {
+            to.operation = TextureOperation::texture_2d;
         }
     }
     return own;
 }
 
-/// What units of a pass read from frames, after its other inputs.
-void add_frames(const ProgramPass& pass, int first_frame, const BoundProgram& program,
-                std::vector<InputOp>& inputs) {
+/// Where frames of earlier passes lie, and what is free behind them.
+struct FramePlanes {
+    int first;    ///< of the first frame's four planes
+    int scratch;  ///< first of kSamplePlanes register planes
+};
+
+/// What units of a pass read from frames and from tables that frames address, after its other
+/// inputs.
+void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const FramePlanes& planes,
+                const BoundProgram& program, std::vector<InputOp>& inputs) {
+    SamplePlan sampling{program.numbers, kSampleScratch, planes.scratch};
     for (std::size_t i = 0; i < pass.units.size(); ++i) {
+        const PassUnit& unit = pass.units[i];
         const int to = program.input[static_cast<std::size_t>(tex(static_cast<int>(i)))][0];
-        if (pass.units[i].frame < 0 || to < 0) continue;
-        for (int c = 0; c < 4; ++c) {
-            inputs.emplace_back(CopyCtx{first_frame + 4 * pass.units[i].frame + c, to + c});
+        if (to < 0) continue;
+        if (unit.frame >= 0) {
+            for (int c = 0; c < 4; ++c)
+                inputs.emplace_back(CopyCtx{planes.first + 4 * unit.frame + c, to + c});
+        } else if (unit.address >= 0) {
+            const int frame = pass.units[static_cast<std::size_t>(unit.address)].frame;
+            const Texture& table = *material.units[static_cast<std::size_t>(unit.material_unit)];
+            const bool is_1d = table.target() == TextureTarget::one_d;
+            BoundFetch fetch;
+            fetch.unit = unit.material_unit;
+            fetch.target = is_1d ? FetchTarget::table_1d : FetchTarget::table_2d;
+            fetch.plane = {planes.first + 4 * frame + 3, planes.first + 4 * frame, 0};
+            fetch.out = to;
+            FreePlanes free{kUnitAttributes, planes.scratch + kSamplePlanes};
+            const std::vector<InputOp> ops = plan_stage_fetch(fetch, table, sampling, free);
+            inputs.insert(inputs.end(), ops.begin(), ops.end());
         }
     }
 }
 
 void plan_passes(Shading& shading, const ProgramMaterial& material, const Machine& machine,
                  bool is_mesh, int light) {
-    const std::vector<ProgramPass> passes = split_into_passes(
-        material.combiners, machine, unit_texels(material), material.texture_shader.has_value());
-    int first_frame = 0;  // behind the planes of all passes
+    const std::vector<ProgramPass> passes =
+        split_into_passes(material.combiners, machine, unit_texels(material),
+                          material.texture_shader && refers_to_units(*material.texture_shader));
+    FramePlanes planes{0, 0};  // behind the planes of all passes
     bool quads = false;
     for (const ProgramPass& pass : passes) {
         plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, light, {},
                   pass.units);
-        first_frame = std::max(first_frame, shading.program.plane_count);
+        planes.first = std::max(planes.first, shading.program.plane_count);
         quads |= shading.quads;
         if (&pass == &passes.back()) break;
         shading.earlier_passes.push_back({std::move(shading.inputs), shading.program, 0});
     }
     shading.quads = quads;
+    planes.scratch = planes.first + 4 * static_cast<int>(shading.earlier_passes.size());
     for (std::size_t i = 0; i < shading.earlier_passes.size(); ++i) {
         EarlierPass& pass = shading.earlier_passes[i];
-        pass.frame = first_frame + 4 * static_cast<int>(i);
-        add_frames(passes[i], first_frame, pass.program, pass.inputs);
+        pass.frame = planes.first + 4 * static_cast<int>(i);
+        add_frames(passes[i], material, planes, pass.program, pass.inputs);
     }
-    add_frames(passes.back(), first_frame, shading.program, shading.inputs);
-    shading.program.plane_count = first_frame + 4 * static_cast<int>(shading.earlier_passes.size());
+    add_frames(passes.back(), material, planes, shading.program, shading.inputs);
+    shading.program.plane_count = planes.scratch + kSamplePlanes + 4;
 }
 
 /// Passes and inputs of one light. Attributes that other lights asked for keep their places.
