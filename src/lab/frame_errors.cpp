@@ -19,23 +19,21 @@ glm::dvec4 pixel(const Framebuffer& frame, int x, int y) {
 /// Interior pixels, row by row.
 class Interior {
   public:
-    explicit Interior(const Framebuffer& frame) : m_inside(frame.width(), frame.height()) {
+    explicit Interior(const Framebuffer& frame)
+        : m_width(frame.width()),
+          m_inside(static_cast<std::size_t>(frame.width()) *
+                   static_cast<std::size_t>(frame.height())) {
         for (int y = 1; y + 1 < frame.height(); ++y)
-            for (int x = 1; x + 1 < frame.width(); ++x) m_inside.at(x, y) = surrounded(frame, x, y);
+            for (int x = 1; x + 1 < frame.width(); ++x)
+                m_inside[index(x, y)] = surrounded(frame, x, y);
     }
-    [[nodiscard]] bool contains(int x, int y) const { return m_inside.at(x, y) != 0; }
+    [[nodiscard]] bool contains(int x, int y) const { return m_inside[index(x, y)] != 0; }
 
   private:
-    struct Flags {
-        Flags(int w, int h)
-            : width(static_cast<std::size_t>(w)), flags(width * static_cast<std::size_t>(h)) {}
-        char& at(int x, int y) {
-            return flags[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-        }
-        [[nodiscard]] char at(int x, int y) const { return const_cast<Flags*>(this)->at(x, y); }
-        std::size_t width;
-        std::vector<char> flags;
-    };
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) +
+               static_cast<std::size_t>(x);
+    }
     static bool surrounded(const Framebuffer& frame, int x, int y) {
         for (int j = y - 1; j <= y + 1; ++j)
             for (int i = x - 1; i <= x + 1; ++i)
@@ -43,7 +41,8 @@ class Interior {
         return true;
     }
 
-    Flags m_inside;
+    int m_width;
+    std::vector<char> m_inside;
 };
 
 }  // namespace

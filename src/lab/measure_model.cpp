@@ -28,6 +28,23 @@ Framebuffer in_double(const Scene& scene) {
     return frame;
 }
 
+/// Sets the light so that the double picture has its peak, and returns that picture: without
+/// ambient light it is proportional to the light.
+Framebuffer expose_picture(Scene& scene) {
+    Light& light = scene.lights.front();
+    light.intensity = 1.0F;
+    Framebuffer frame = in_double(scene);
+    const double peak = interior_peak(frame);
+    if (peak <= 0.0) return frame;
+    light.intensity = static_cast<float>(kPeak / peak);
+    for (int y = 0; y < frame.height(); ++y) {
+        auto* row = reinterpret_cast<glm::vec4*>(frame.row(y));
+        for (int x = 0; x < frame.width(); ++x)
+            row[x] = glm::vec4(glm::vec3(row[x]) * light.intensity, row[x].a);
+    }
+    return frame;
+}
+
 /// Of the only object under the only light.
 void count_resources(const Scene& scene, ModelMeasurement& measured) {
     DerivedMaps maps;
@@ -96,10 +113,7 @@ Scene measured_scene(const Material& material, std::string_view machine) {
 }
 
 void expose(Scene& scene) {
-    Light& light = scene.lights.front();
-    light.intensity = 1.0F;
-    const double peak = interior_peak(in_double(scene));
-    if (peak > 0.0) light.intensity = static_cast<float>(kPeak / peak);
+    expose_picture(scene);
 }
 
 ModelMeasurement measure_model(Model model, std::string_view machine,
@@ -112,11 +126,11 @@ ModelMeasurement measure_model(Model model, std::string_view machine,
     material.model = model;
     Scene scene = measured_scene(material, machine);
     try {
-        expose(scene);
+        const Framebuffer want = expose_picture(scene);
         count_resources(scene, measured);
         Framebuffer got(scene.width, scene.height, PixelFormat::rgba32f);
         Renderer({.threads = 1}).render(scene, got);
-        measured.errors = frame_errors(got, in_double(scene));
+        measured.errors = frame_errors(got, want);
     } catch (const Error& error) {
         measured.refusal = error.what();
     }

@@ -32,8 +32,7 @@ bool matters(Model model, const ModelParameters& p, const Material& first) {
     return p.material.alpha_y == p.material.alpha_x && p.material.exponent != first.exponent;
 }
 
-std::vector<ModelMeasurement> measure_all() {
-    const std::vector<ModelParameters> parameters = measured_parameters();
+std::vector<ModelMeasurement> measure_all(const std::vector<ModelParameters>& parameters) {
     std::vector<Task> tasks;
     for (std::size_t model = 0; model < model_names().size(); ++model)
         for (const std::string_view machine : {"geforce256", "nv2a", "ideal"})
@@ -60,8 +59,9 @@ int main(int argc, char** argv) {
         using namespace burnish;
         const std::filesystem::path directory = argv[1];
         std::filesystem::create_directories(directory);
-        const std::vector<lab::ModelMeasurement> measurements = lab::measure_all();
-        const std::string tables = lab::model_tables(measurements);
+        const std::vector<lab::ModelParameters> parameters = lab::measured_parameters();
+        const std::vector<lab::ModelMeasurement> measurements = lab::measure_all(parameters);
+        const std::string tables = lab::model_tables(measurements, parameters);
         save_text(tables, directory / "models.md");
         save_text(lab::model_json(measurements), directory / "models.json");
         lab::replace_section(argv[2], "models", tables);

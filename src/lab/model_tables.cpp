@@ -109,13 +109,13 @@ std::string json_text(std::string_view text) {
 
 }  // namespace
 
-std::string model_tables(std::span<const ModelMeasurement> measurements) {
+std::string model_tables(std::span<const ModelMeasurement> measurements,
+                         std::span<const ModelParameters> parameters) {
     const auto machines = distinct(measurements, [](const auto& m) { return m.machine; });
     const auto models = distinct(measurements, [](const auto& m) { return m.model; });
-    const auto names = distinct(measurements, [](const auto& m) { return m.parameters; });
     std::vector<std::string> constants, sets;
-    for (const std::string& name : names)
-        (name.find(',') != std::string::npos ? constants : sets).push_back(name);
+    for (const ModelParameters& p : parameters)
+        (p.shift_variant ? sets : constants).push_back(p.name);
 
     std::string text =
         "Passes, units and stages; errors of numbers 0 .. 1; the step in 1/255.\n\n" +
