@@ -1,0 +1,126 @@
+// Reflectance models on machines against the double renderer, and the numbers that say how far off.
+#include <gtest/gtest.h>
+
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+#include <burnish/materials.hpp>
+#include <burnish/renderer.hpp>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "core/read_text.hpp"
+#include "lab/document_section.hpp"
+#include "lab/measure_model.hpp"
+#include "scratch_directory.hpp"
+
+namespace burnish::lab {
+namespace {
+
+void set(Framebuffer& frame, int x, int y, const glm::vec4& value) {
+    std::memcpy(frame.row(y) + static_cast<std::size_t>(x) * sizeof value, &value, sizeof value);
+}
+
+Framebuffer covered(int width, int height, float value) {
+    Framebuffer frame(width, height, PixelFormat::rgba32f);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) set(frame, x, y, {value, value, value, 1.0F});
+    return frame;
+}
+
+// Of 4 x 3 pixels (1, 1) and (2, 1) have eight neighbours. Differences are +0.125 and -0.25:
+// squares 1/64 and 4/64, mean 2.5/64; the pair differs by 0.375, in the other picture by 0.
+TEST(FrameErrors, OfTwoInteriorPixels) {
+    const Framebuffer want = covered(4, 3, 0.5F);
+    Framebuffer got = covered(4, 3, 7.0F);
+    set(got, 1, 1, {0.625F, 0.625F, 0.625F, 0.0F});
+    set(got, 2, 1, {0.25F, 0.25F, 0.25F, 0.0F});
+    const FrameErrors errors = frame_errors(got, want);
+    EXPECT_EQ(errors.pixels, 2U);
+    EXPECT_DOUBLE_EQ(errors.rmse, std::sqrt(2.5 / 64.0));
+    EXPECT_DOUBLE_EQ(errors.bias, -0.0625);
+    EXPECT_DOUBLE_EQ(errors.largest, 0.25);
+    EXPECT_DOUBLE_EQ(errors.p99, 0.25);
+    EXPECT_DOUBLE_EQ(errors.step_excess, 0.375);
+}
+
+TEST(FrameErrors, AHoleIsSurroundedByNoInterior) {
+    Framebuffer want = covered(5, 5, 0.5F);
+    set(want, 2, 2, glm::vec4(0.0F));  // a neighbour of all nine pixels that are not on the border
+    const FrameErrors errors = frame_errors(covered(5, 5, 0.0F), want);
+    EXPECT_EQ(errors.pixels, 0U);
+    EXPECT_EQ(errors.rmse, 0.0);
+    EXPECT_EQ(interior_peak(want), 0.0);
+    EXPECT_EQ(interior_peak(covered(3, 3, 0.25F)), 0.25);
+}
+
+// The number of 1/255 by which a step may exceed the double picture's. At N = 128 the table of F^N
+// of the fibre models runs past F = 1, where it is clamped: the kink lies between texels.
+double step_bound(Model model, const ModelParameters& parameters) {
+    const bool fibres = model == Model::banks || model == Model::kajiya_kay;
+    if (fibres && !parameters.shift_variant && parameters.material.exponent == 128.0F) return 7.0;
+    return 2.0;
+}
+
+class OnIdeal : public testing::TestWithParam<int> {};
+
+TEST_P(OnIdeal, ErrorsAreSmall) {
+    const Model model{GetParam()};
+    std::vector<ModelParameters> all{constant_parameters(0.05F, 0.2F, 16.0F),
+                                     shift_variant_parameters("corrosion")};
+    if (has_widths(model)) all.push_back(constant_parameters(0.05F, 0.05F, 2.0F));
+    if (has_exponent(model)) all.push_back(constant_parameters(0.05F, 0.05F, 128.0F));
+    for (const ModelParameters& parameters : all) {
+        const ModelMeasurement measured = measure_model(model, "ideal", parameters);
+        ASSERT_EQ(measured.refusal, "") << parameters.name;
+        EXPECT_GT(measured.errors.pixels, 30000U) << parameters.name;
+        EXPECT_EQ(measured.passes, 1) << parameters.name;
+        EXPECT_LT(measured.errors.rmse, 0.004) << parameters.name;
+        EXPECT_LT(measured.errors.step_excess * 255.0, step_bound(model, parameters))
+            << parameters.name;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(EveryModel, OnIdeal, testing::Range(0, 12), [](const auto& model) {
+    return std::string(model_names()[static_cast<std::size_t>(model.param)]);
+});
+
+// A half vector of nine bits is off by up to 1/254 in each component, 1/254 / sqrt(3) in the mean;
+// three of them along t, over alpha_x = 0.15, move u by 0.015 and 1 - u^2 by up to 0.03, over the
+// fifteenth of the sphere that the lobe covers: 0.03 * 0.8 * sqrt(1/15) = 0.006, and as much again
+// for products and maps.
+TEST(OnGeforce256, ModifiedModelsAreOnePass) {
+    for (const Model model : {Model::abp_modified, Model::abp_modified_n4}) {
+        const ModelMeasurement measured =
+            measure_model(model, "geforce256", constant_parameters(0.15F, 0.5F, 2.0F));
+        ASSERT_EQ(measured.refusal, "");
+        EXPECT_EQ(measured.passes, 1);
+        EXPECT_LE(measured.units, 2);
+        EXPECT_LE(measured.stages, 2);
+        EXPECT_LT(measured.errors.rmse, 0.012);
+        EXPECT_LT(std::abs(measured.errors.bias), 0.001);
+    }
+}
+
+TEST(MeasuredScene, PeakIsNineTenths) {
+    Scene scene = measured_scene(constant_parameters(0.15F, 0.5F, 16.0F).material, "double");
+    scene.objects.front().material =
+        std::make_shared<Material>(constant_parameters(0.05F, 0.05F, 16.0F).material);
+    expose(scene);
+    Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
+    Renderer().render(scene, frame);
+    EXPECT_NEAR(interior_peak(frame), 0.9, 1e-6);
+}
+
+class DocumentSection : public ScratchDirectory {};
+
+TEST_F(DocumentSection, IsReplacedBetweenItsLines) {
+    const std::filesystem::path file = path("a.md");
+    save_text("x\n<!-- begin t -->\nold\n<!-- end t -->\ny\n", file);
+    replace_section(file, "t", "new\n");
+    EXPECT_EQ(read_text(file), "x\n<!-- begin t -->\nnew\n<!-- end t -->\ny\n");
+    EXPECT_THROW(replace_section(file, "u", ""), Error);
+}
+
+}  // namespace
+}  // namespace burnish::lab
