@@ -28,13 +28,13 @@ Y = b / alpha_y
         case Model::banks:
             return R"(a = dot(v, t)
 c = dot(l, t)
-lobe = min(1, max(0, sqrt(1 - a^2) * sqrt(1 - c^2) - a * c))^N
-(ks * lobe + kd * sqrt(1 - c^2)) * max(0, dot(n, l)))";
+lobe = min(1, max(0, sqrt(max(0, 1 - a^2)) * sqrt(max(0, 1 - c^2)) - a * c))^N
+(ks * lobe + kd * sqrt(max(0, 1 - c^2))) * max(0, dot(n, l)))";
         case Model::kajiya_kay:
             return R"(a = dot(v, t)
 c = dot(l, t)
-lobe = min(1, max(0, sqrt(1 - a^2) * sqrt(1 - c^2) - a * c))^N
-(ks * lobe + kd * sqrt(1 - c^2)) * min(1, 8 * n_dot_l))";
+lobe = min(1, max(0, sqrt(max(0, 1 - a^2)) * sqrt(max(0, 1 - c^2)) - a * c))^N
+(ks * lobe + kd * sqrt(max(0, 1 - c^2))) * min(1, 8 * n_dot_l))";
         case Model::ward:
             return R"(X = t / alpha_x
 Y = b / alpha_y
