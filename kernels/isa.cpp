@@ -15,7 +15,8 @@ namespace {
 #include "kernels/fetch.inl"
 #include "kernels/final.inl"  // after combine.inl, whose products it uses
 #include "kernels/interpolate.inl"
-#include "kernels/levels.inl"  // after fetch.inl, whose AxisAddress it uses
+#include "kernels/levels.inl"          // after fetch.inl, whose AxisAddress it uses
+#include "kernels/light_vertices.inl"  // after interpolate.inl, whose vectors it uses
 #include "kernels/rasterize.inl"
 #include "kernels/texture_shader.inl"
 #include "kernels/transform.inl"

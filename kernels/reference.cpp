@@ -262,6 +262,62 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
     }
 }
 
+/// `x` of unit length, or as it is without length.
+Vector unit_or_zero(const Vector& x) {
+    const float length = std::sqrt(dot(x, x));
+    if (!(length > 0.0F)) return x;
+    const float scale = 1.0F / length;
+    return {x.x * scale, x.y * scale, x.z * scale};
+}
+
+void light_vertices(const LightVerticesCtx& ctx) noexcept {
+    for (int k = 0; k < ctx.count; ++k) {
+        const float* f = ctx.frames + k * LightVerticesCtx::kFrameFloats;
+        const Vector position{f[0], f[1], f[2]}, normal{f[3], f[4], f[5]};
+        Vector n = normal, t{f[6], f[7], f[8]}, b = cross(n, t);
+        b = {b.x * f[9], b.y * f[9], b.z * f[9]};
+        if (ctx.orthonormal != 0) {
+            n = unit_or_zero(n);
+            const float along = dot(n, t);
+            t = unit_or_zero({t.x - n.x * along, t.y - n.y * along, t.z - n.z * along});
+            const Vector c = cross(n, t);
+            b = dot(c, b) < 0.0F ? Vector{-c.x, -c.y, -c.z} : c;
+        }
+        const auto towards = [&](const float(&to)[3], float w) {
+            return unit_or_zero(
+                {to[0] - position.x * w, to[1] - position.y * w, to[2] - position.z * w});
+        };
+        const Vector l = towards(ctx.light, ctx.light_w), v = towards(ctx.eye, ctx.eye_w);
+        const Vector sum{l.x + v.x, l.y + v.y, l.z + v.z};
+        const Vector middle{sum.x * 0.5F, sum.y * 0.5F, sum.z * 0.5F};
+        const Vector h = ctx.raw_half != 0 ? middle : unit_or_zero(sum);
+
+        float values[VertexValue::count];
+        const auto write_coded = [&](int first, const Vector& x) {
+            values[first] = dot(t, x) * 0.5F + 0.5F;
+            values[first + 1] = dot(b, x) * 0.5F + 0.5F;
+            values[first + 2] = dot(n, x) * 0.5F + 0.5F;
+        };
+        write_coded(VertexValue::half, h);
+        write_coded(VertexValue::light, l);
+        write_coded(VertexValue::view, v);
+        values[VertexValue::half_sum] = dot(t, middle);
+        values[VertexValue::half_sum + 1] = dot(b, middle);
+        values[VertexValue::half_sum + 2] = dot(n, middle);
+        const float n_dot_l = maximum(dot(n, l), 0.0F);
+        values[VertexValue::n_dot_l] = n_dot_l;
+        values[VertexValue::h_dot_l] = maximum(dot(h, l), 0.0F);
+        for (int c = 0; c < 3; ++c)
+            values[VertexValue::lit + c] = n_dot_l * ctx.tint[c] + ctx.base[c];
+        values[VertexValue::normal] = normal.x * 0.5F + 0.5F;
+        values[VertexValue::normal + 1] = normal.y * 0.5F + 0.5F;
+        values[VertexValue::normal + 2] = normal.z * 0.5F + 0.5F;
+        for (int i = 0; i < ctx.stride; ++i)
+            if (ctx.values[i] != VertexValue::none)
+                ctx.out[k * ctx.stride + i] = values[ctx.values[i]];
+    }
+}
+
 // ---- texels
 
 struct TexelPosition {
@@ -1099,6 +1155,7 @@ const KernelTable& table_reference() noexcept {
         .isa = "reference",
         .lanes = 1,
         .transform = transform,
+        .light_vertices = light_vertices,
         .rasterize = rasterize,
         .cover = cover,
         .collect = collect,

@@ -8,10 +8,11 @@
 /// from these two lists. Contract header: no functions.
 
 /// Stages before shading: void stage(const Ctx&) noexcept.
-#define BURNISH_TILE_STAGES(X) \
-    X(transform, TransformCtx) \
-    X(rasterize, RasterizeCtx) \
-    X(cover, CoverCtx)         \
+#define BURNISH_TILE_STAGES(X)          \
+    X(transform, TransformCtx)          \
+    X(light_vertices, LightVerticesCtx) \
+    X(rasterize, RasterizeCtx)          \
+    X(cover, CoverCtx)                  \
     X(collect, CollectCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.

@@ -70,6 +70,43 @@ struct TransformCtx {
     HomogeneousVertex* homogeneous;  ///< out, `count` elements
 };
 
+/// What a mesh's vertex may hand to the interpolators, by number.
+struct VertexValue {
+    static constexpr std::int8_t none = -1;
+    static constexpr std::int8_t half = 0;   ///< three components in the tangent frame,
+    static constexpr std::int8_t light = 3;  ///< x/2 + 1/2
+    static constexpr std::int8_t view = 6;
+    static constexpr std::int8_t half_sum = 9;  ///< (l + v) / 2 in the tangent frame, not coded
+    static constexpr std::int8_t n_dot_l = 12;
+    static constexpr std::int8_t h_dot_l = 13;
+    static constexpr std::int8_t lit = 14;     ///< three components: n_dot_l * tint + base
+    static constexpr std::int8_t normal = 17;  ///< object space, x/2 + 1/2
+    static constexpr int count = 20;
+};
+
+/// A light at `count` vertices. All arithmetic in float, no operation fused, dot(a, b) =
+/// (ax bx + ay by) + az bz, unit(x) = x * (1 / sqrt(dot(x, x))) or, without length, x:
+///   b = cross(n, t) * sign;   orthonormal: n = unit(n), t = unit(t - n * dot(n, t)),
+///                             c = cross(n, t), b = dot(c, b) < 0 ? -c : c
+///   l = unit(light - position * light_w),  v = unit(eye - position * eye_w),  sum = l + v
+///   h = raw_half ? sum * 0.5 : unit(sum)
+///   half = (dot(t, h), dot(b, h), dot(n, h)) * 0.5 + 0.5, light and view likewise of l and v
+///   half_sum = (dot(t, sum * 0.5), ...)
+///   n_dot_l = max(dot(n, l), 0), h_dot_l = max(dot(h, l), 0): 0 for a NaN
+///   normal = (n as it came) * 0.5 + 0.5
+struct LightVerticesCtx {
+    static constexpr int kFrameFloats = 12;
+    const float* frames;  ///< kFrameFloats each: position, normal, tangent and its sign, uv
+    int count;
+    float light[3], light_w;
+    float eye[3], eye_w;
+    std::uint8_t orthonormal, raw_half;
+    float tint[3], base[3];
+    const std::int8_t* values;  ///< `stride` VertexValues; `none` leaves a float as it is
+    int stride;
+    float* out;  ///< vertex by vertex, `stride` floats each
+};
+
 /// A triangle as one tile sees it. Inside where a*x + b*y + c >= 0 for every edge, for whole tile
 /// pixels x, y in 0 .. 63; c includes the top-left rule. Edges that do not cross the tile are left
 /// out, so |c| < 2^30 and the sum fits 32 bits.

@@ -131,6 +131,46 @@ TEST_P(KernelTest, TransformAtTheBordersOfView) {
     }
 }
 
+// ---- light at the vertices
+
+TEST_P(KernelTest, LightAtRandomVertices) {
+    for (int seed = 0; seed < 600; ++seed) {
+        Random random(static_cast<unsigned>(seed));
+        const int count = random.between(1, 40), stride = random.between(1, 24);
+        std::vector<float> frames(static_cast<std::size_t>(count) * LightVerticesCtx::kFrameFloats);
+        for (float& x : frames) x = random.chance(9) ? 0.0F : random.real(-2.0F, 2.0F);
+        std::vector<std::int8_t> values(static_cast<std::size_t>(stride));
+        for (std::int8_t& v : values)
+            v = static_cast<std::int8_t>(random.between(VertexValue::none, VertexValue::count - 1));
+        LightVerticesCtx ctx{};
+        ctx.frames = frames.data();
+        ctx.count = count;
+        ctx.values = values.data();
+        ctx.stride = stride;
+        for (int c = 0; c < 3; ++c) {
+            ctx.light[c] = random.real(-3.0F, 3.0F);
+            ctx.eye[c] = random.real(-3.0F, 3.0F);
+            ctx.tint[c] = random.real(0.0F, 2.0F);
+            ctx.base[c] = random.real(0.0F, 1.0F);
+        }
+        ctx.light_w = random.chance(2) ? 1.0F : 0.0F;
+        ctx.eye_w = random.chance(2) ? 1.0F : 0.0F;
+        ctx.orthonormal = random.chance(2) ? 1 : 0;
+        ctx.raw_half = random.chance(2) ? 1 : 0;
+        constexpr float kUntouched = -77.5F;
+        const std::size_t size = static_cast<std::size_t>(count * stride) + 16;
+        std::vector<float> got(size, kUntouched), want(size, kUntouched);
+        ctx.out = got.data();
+        table().light_vertices(ctx);
+        ctx.out = want.data();
+        table_reference().light_vertices(ctx);
+        for (std::size_t i = 0; i < size; ++i)
+            ASSERT_TRUE(same_bits(got[i], want[i]))
+                << name("light_vertices") << ", seed " << seed << ", float " << i << " of "
+                << stride << " per vertex: got " << got[i] << ", want " << want[i];
+    }
+}
+
 // ---- rasterize
 
 struct Point {

@@ -21,82 +21,61 @@ glm::vec3 normalised(const glm::vec3& v) {
     return length > 0.0F ? v * (1.0F / length) : v;
 }
 
-/// Everything that a lit vertex may be asked for.
-struct LitVertex {
-    glm::vec3 normal{};                 // object space, x/2 + 1/2
-    glm::vec3 half{}, light{}, view{};  // in the tangent frame, likewise
-    glm::vec3 half_sum{};               // in the tangent frame
-    float n_dot_l = 0.0F, h_dot_l = 0.0F;
-};
-
-/// Which vectors of one light a list of varyings names.
-struct WantedVectors {
-    WantedVectors(std::span<const Varying> list, int of_light) {
-        for (const Varying& v : list) {
-            if (v.light != of_light) continue;
-            any = true;
-            half |= v.source == Varying::Source::half_tangent ||
-                    v.source == Varying::Source::half_sum || v.source == Varying::Source::h_dot_l;
-            light |= v.source == Varying::Source::light_tangent;
-            view |= v.source == Varying::Source::view_tangent;
-        }
-    }
-    bool any = false, half = false, light = false, view = false;
-};
-
-/// The frame of a vertex as the machine takes it.
-struct Frame {
-    Frame(const VertexFrame& v, bool orthonormal) : t(v.tangent), b(bitangent(v)), n(v.normal) {
-        if (orthonormal) make_orthonormal(t, b, n);
-    }
-    [[nodiscard]] glm::vec3 in_frame(const glm::vec3& x) const {
-        return {dot(t, x), dot(b, x), dot(n, x)};
-    }
-    glm::vec3 t, b, n;
-};
-
-LitVertex light_vertex(const VertexFrame& v, const LightInputs& inputs,
-                       const WantedVectors& wanted) {
-    const LightSpace& space = inputs.space;
-    const Frame frame(v, inputs.rules.orthonormal);
-    const auto coded = [&](const glm::vec3& x) { return frame.in_frame(x) * 0.5F + 0.5F; };
-    const glm::vec3 l = normalised(space.light - v.position * space.light_w);
-    LitVertex lit{.normal = v.normal * 0.5F + 0.5F, .n_dot_l = std::max(dot(frame.n, l), 0.0F)};
-    if (wanted.light) lit.light = coded(l);
-    if (!wanted.half && !wanted.view) return lit;
-    const glm::vec3 view = normalised(space.eye - v.position * space.eye_w);
-    if (wanted.half) {
-        const glm::vec3 sum = l + view;
-        const glm::vec3 half = inputs.rules.normalise_half ? normalised(sum) : sum * 0.5F;
-        lit.half_sum = frame.in_frame(sum * 0.5F);
-        lit.half = coded(half);
-        lit.h_dot_l = std::max(dot(half, l), 0.0F);
-    }
-    if (wanted.view) lit.view = coded(view);
-    return lit;
-}
-
-float value_of(const LitVertex& v, const Varying& varying, const LitColors& lit) {
+/// The number by which the kernel knows what a varying is; a mesh has no vertex colours.
+std::int8_t vertex_value(const Varying& varying) {
+    const auto component = [&](std::int8_t first) {
+        return static_cast<std::int8_t>(first + varying.index);
+    };
     switch (varying.source) {
         case Varying::Source::half_tangent:
-            return v.half[varying.index];
+            return component(VertexValue::half);
         case Varying::Source::light_tangent:
-            return v.light[varying.index];
+            return component(VertexValue::light);
         case Varying::Source::view_tangent:
-            return v.view[varying.index];
+            return component(VertexValue::view);
         case Varying::Source::half_sum:
-            return v.half_sum[varying.index];
+            return component(VertexValue::half_sum);
         case Varying::Source::n_dot_l:
-            return v.n_dot_l;
+            return VertexValue::n_dot_l;
         case Varying::Source::h_dot_l:
-            return v.h_dot_l;
+            return VertexValue::h_dot_l;
         case Varying::Source::lit:
-            return v.n_dot_l * lit.tint[varying.index] + lit.base[varying.index];
+            return component(VertexValue::lit);
         case Varying::Source::normal:
-            return v.normal[varying.index];
+            return component(VertexValue::normal);
         default:
-            return 0.0F;  // a mesh has no vertex colours
+            return VertexValue::none;
     }
+}
+
+/// The values of `list` that belong to light `light`, for the kernel; empty if there are none.
+std::vector<std::int8_t> vertex_values(std::span<const Varying> list, int light) {
+    std::vector<std::int8_t> values(list.size(), VertexValue::none);
+    bool any = false;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        if (list[k].light != light) continue;
+        values[k] = vertex_value(list[k]);
+        any |= values[k] != VertexValue::none;
+    }
+    if (!any) values.clear();
+    return values;
+}
+
+LightVerticesCtx light_context(const LightInputs& inputs, const std::vector<std::int8_t>& values) {
+    LightVerticesCtx ctx{};
+    for (int c = 0; c < 3; ++c) {
+        ctx.light[c] = inputs.space.light[c];
+        ctx.eye[c] = inputs.space.eye[c];
+        ctx.tint[c] = inputs.lit.tint[c];
+        ctx.base[c] = inputs.lit.base[c];
+    }
+    ctx.light_w = inputs.space.light_w;
+    ctx.eye_w = inputs.space.eye_w;
+    ctx.orthonormal = inputs.rules.orthonormal ? 1 : 0;
+    ctx.raw_half = inputs.rules.normalise_half ? 0 : 1;
+    ctx.values = values.data();
+    ctx.stride = static_cast<int>(values.size());
+    return ctx;
 }
 
 /// A colour as the NV2A takes it: 0.1 and 0.3 become 25 and 76 of 255, a little below the half. The
@@ -136,26 +115,26 @@ glm::vec3 bitangent(const VertexFrame& v) {
 }
 
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   std::span<const LightInputs> lights, WorkerPool& pool, std::vector<float>& out) {
+                   std::span<const LightInputs> lights, const KernelTable& kernels,
+                   WorkerPool& pool, std::vector<float>& out) {
+    static_assert(sizeof(VertexFrame) == LightVerticesCtx::kFrameFloats * sizeof(float));
     constexpr std::size_t kBatch = 1024;
-    out.resize(vertices.size() * list.size());
-    if (list.empty()) return;
-    for_each_index(pool, (vertices.size() + kBatch - 1) / kBatch, 1, [&](std::size_t batch, int) {
-        const std::size_t last = std::min(vertices.size(), (batch + 1) * kBatch);
-        for (int light = 0; light < static_cast<int>(lights.size()); ++light) {
-            const WantedVectors wanted(list, light);
-            if (!wanted.any) continue;
-            const LightInputs& inputs = lights[static_cast<std::size_t>(light)];
-            for (std::size_t i = batch * kBatch; i < last; ++i) {
-                const LitVertex v = light_vertex(vertices[i], inputs, wanted);
-                float* to = out.data() + i * list.size();
-                for (const Varying& varying : list) {
-                    if (varying.light == light) *to = value_of(v, varying, inputs.lit);
-                    ++to;
-                }
-            }
-        }
-    });
+    const std::size_t stride = list.size();
+    out.resize(vertices.size() * stride);
+    for (std::size_t light = 0; light < lights.size(); ++light) {
+        const std::vector<std::int8_t> values = vertex_values(list, static_cast<int>(light));
+        if (values.empty()) continue;
+        const LightVerticesCtx whole = light_context(lights[light], values);
+        const std::size_t batches = (vertices.size() + kBatch - 1) / kBatch;
+        for_each_index(pool, batches, 1, [&](std::size_t batch, int) {
+            const std::size_t first = batch * kBatch;
+            LightVerticesCtx ctx = whole;
+            ctx.frames = &vertices[first].position.x;
+            ctx.count = static_cast<int>(std::min(kBatch, vertices.size() - first));
+            ctx.out = out.data() + first * stride;
+            kernels.light_vertices(ctx);
+        });
+    }
 }
 
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "kernels/kernel_table.hpp"
 
 namespace burnish {
 
@@ -61,7 +62,8 @@ struct LightInputs {
 
 /// Values of `list` for every vertex, vertex by vertex. Vectors are unit length at the vertex.
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   std::span<const LightInputs> lights, WorkerPool& pool, std::vector<float>& out);
+                   std::span<const LightInputs> lights, const KernelTable& kernels,
+                   WorkerPool& pool, std::vector<float>& out);
 /// Colours are clamped to [0, 1]; nine-bit machines drop what lies below
 /// 2^-22.
 void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
