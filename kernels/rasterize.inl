@@ -225,13 +225,67 @@ std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx)
     return drawn;
 }
 
+/// A bounding box no larger than a block: up to four blocks.
+inline bool is_small(const TileTriangle& t) {
+    return t.x1 - t.x0 < kBlockSize && t.y1 - t.y0 < kBlockSize;
+}
+
+/// The same for small triangles, which are done before blocks could be classified.
+template <class Rule>
+std::uint64_t rasterize_small(const TileTriangle& t, const RasterizeCtx& ctx) {
+    std::int32_t a[3] = {}, b[3] = {}, c[3] = {};
+    I32 lanes[3] = {I32(0), I32(0), I32(0)};
+    for (int k = 0; k < t.edges; ++k) {
+        a[k] = t.a[k];
+        b[k] = t.b[k];
+        c[k] = t.c[k];
+        lanes[k] = I32(a[k]) * lane_x() + I32(b[k]) * lane_y();
+    }
+    const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
+    constexpr int kLast = kBlockSize - 1;
+    std::uint64_t drawn = 0;
+    for (int top = t.y0 & ~kLast; top <= t.y1; top += kBlockSize) {
+        const int first_row = t.y0 > top ? t.y0 - top : 0;
+        const int last_row = t.y1 - top < kLast ? t.y1 - top : kLast;
+        const int first = first_row / kVectorRows * kRowVectors;
+        const int end = (last_row / kVectorRows + 1) * kRowVectors;
+        for (int left = t.x0 & ~kLast; left <= t.x1; left += kBlockSize) {
+            const int block = top + left / kBlockSize;
+            float* const depth = ctx.depth + block * kBlockPixels;
+            LeaveId trace(t, ctx.id + block * kBlockPixels);
+            for (int v = first; v < end; ++v) {
+                const int x = left + v % kRowVectors * kLanes32;
+                const int y = top + v / kRowVectors * kVectorRows;
+                const auto edge = [&](int k) { return lanes[k] + I32(c[k] + a[k] * x + b[k] * y); };
+                const I32 outside = edge(0) | edge(1) | edge(2);
+                const F32 dx = to_float(lane_x() + I32(x + t.offset_x));
+                const F32 dy = to_float(lane_y() + I32(y + t.offset_y));
+                const F32 z = min(max((z0 + dx * zx) + dy * zy, z_low), z_high);
+                const F32 old = load(depth + v * kLanes32);
+                const Mask32 write = as_int(Rule::pass(t, z, old)) & (outside >= I32(0));
+                trace.take(v, write);
+                if (Rule::writes(t))
+                    store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
+            }
+            drawn |= static_cast<std::uint64_t>(bits(trace.any) != 0 ? 1 : 0) << block;
+            float& far = ctx.block_far[block];
+            far = updated_far(t, left, top, false, far);
+        }
+    }
+    return drawn;
+}
+
+template <class Rule>
+std::uint64_t rasterize_any(const TileTriangle& t, const RasterizeCtx& ctx) {
+    return is_small(t) ? rasterize_small<Rule>(t, ctx) : rasterize_triangle<Rule>(t, ctx);
+}
+
 void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int i = 0; i < ctx.count; ++i) {
         const TileTriangle& t = ctx.triangles[i];
         const bool usual =
             t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
-        ctx.drawn[i] =
-            usual ? rasterize_triangle<NearerWins>(t, ctx) : rasterize_triangle<AnyRule>(t, ctx);
+        ctx.drawn[i] = usual ? rasterize_any<NearerWins>(t, ctx) : rasterize_any<AnyRule>(t, ctx);
     }
 }
 

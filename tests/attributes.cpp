@@ -39,16 +39,17 @@ double cross(double ax, double ay, double bx, double by) {
 /// Weights of the three corners at the centre of pixel (px, py); they sum to 1.
 Vector corner_weights(const ScreenMesh& mesh, const SetupTriangle& t, int px, int py) {
     const double x = px + 0.5, y = py + 0.5;
+    const std::array<std::uint32_t, 3> vertex = corner_vertices(mesh, t);
     Vector result{};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        const HomogeneousVertex &hj = mesh.homogeneous[t.vertex[j]],
-                                &hk = mesh.homogeneous[t.vertex[k]];
+        const HomogeneousVertex &hj = mesh.homogeneous[vertex[j]],
+                                &hk = mesh.homogeneous[vertex[k]];
         if (t.clipped == 0) {
             // Area opposite to corner i in the window, over its w.
             result[i] = cross(t.x[j] / 256.0 - x, t.y[j] / 256.0 - y, t.x[k] / 256.0 - x,
                               t.y[k] / 256.0 - y) /
-                        static_cast<double>(mesh.homogeneous[t.vertex[i]].w);
+                        static_cast<double>(mesh.homogeneous[vertex[i]].w);
         } else {
             // Same, times all three w: no corner needs to be in front of the eye.
             const double wj = static_cast<double>(hj.w), wk = static_cast<double>(hk.w);
@@ -197,8 +198,9 @@ class Measure {
                  const std::vector<int>& planes) {
         const Vector weights = corner_weights(m_draw.mesh(), t, px, py);
         const Shading& s = m_draw.shading;
-        const VertexFrame &a = s.frames[t.vertex[0]], &b = s.frames[t.vertex[1]],
-                          &c = s.frames[t.vertex[2]];
+        const std::array<std::uint32_t, 3> vertex = corner_vertices(m_draw.mesh(), t);
+        const VertexFrame &a = s.frames[vertex[0]], &b = s.frames[vertex[1]],
+                          &c = s.frames[vertex[2]];
         const double u = blend(weights, a.uv.x, b.uv.x, c.uv.x);
         const double v = 1.0 - blend(weights, a.uv.y, b.uv.y, c.uv.y);
         for (const auto& [plane, want] : {std::pair{0, u}, std::pair{1, v}}) {
@@ -221,11 +223,11 @@ class Measure {
     std::array<double, 4> lit_corners(const Vector& weights, const SetupTriangle& t) const {
         std::array<double, 4> result{};
         const Shading& s = m_draw.shading;
+        const std::array<std::uint32_t, 3> vertex = corner_vertices(m_draw.mesh(), t);
         const std::size_t count = s.varying_list.size();
         for (std::size_t k = 0; k < 4; ++k) {
-            result[k] =
-                blend(weights, s.varyings[t.vertex[0] * count + k],
-                      s.varyings[t.vertex[1] * count + k], s.varyings[t.vertex[2] * count + k]);
+            result[k] = blend(weights, s.varyings[vertex[0] * count + k],
+                              s.varyings[vertex[1] * count + k], s.varyings[vertex[2] * count + k]);
         }
         return result;
     }

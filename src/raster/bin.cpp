@@ -89,19 +89,16 @@ void Chunk::add_clipped(const ChunkSource& source, const SourceTriangle& from) {
 SetupResult Chunk::add_projected(const ChunkSource& source, const SourceTriangle& from,
                                  bool clipped, const ScreenVertex& v0, const ScreenVertex& v1,
                                  const ScreenVertex& v2) {
-    const auto index = static_cast<std::uint32_t>(m_triangles.size());
-    SetupTriangle& triangle = m_triangles.emplace_back();
-    std::copy_n(from.vertex.begin(), 3, triangle.vertex);
-    triangle.draw = source.draw;
+    SetupTriangle triangle;
+    const SetupResult result = setup_triangle(v0, v1, v2, source.facing, source.frame, triangle);
+    if (result != SetupResult::drawn) return result;
+    const std::size_t before = m_unsorted.size();
+    add_to_tiles(triangle, static_cast<std::uint32_t>(m_triangles.size()));
+    if (m_unsorted.size() == before) return SetupResult::culled;
+    triangle.draw = source.draw & ((std::uint32_t{1} << 30) - 1);
     triangle.number = from.number;
     triangle.clipped = clipped ? 1 : 0;
-    SetupResult result = setup_triangle(v0, v1, v2, source.facing, source.frame, triangle);
-    const std::size_t before = m_unsorted.size();
-    if (result == SetupResult::drawn) {
-        add_to_tiles(triangle, index);
-        if (m_unsorted.size() == before) result = SetupResult::culled;
-    }
-    if (result != SetupResult::drawn) m_triangles.pop_back();
+    m_triangles.push_back(triangle);
     return result;
 }
 

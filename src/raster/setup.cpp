@@ -39,10 +39,10 @@ void depth_plane(const ScreenVertex (&v)[3], double area, SetupTriangle& out) {
     out.z_high = std::max({v[0].z, v[1].z, v[2].z});
 }
 
-/// Value of an edge at the centre of pixel (0, 0) of the frame. In units of 1/65536 the values at
-/// pixel centres differ by multiples of 256, so dividing by 256, rounding down, keeps their signs.
-/// Pixels on an edge belong to the triangle if it is a left edge (the inside lies to its right) or
-/// a top edge (level, the inside below): the top-left rule.
+/// Value of an edge at the centre of pixel (0, 0) of the frame, |value| < 2^41. In units of 1/65536
+/// the values at pixel centres differ by multiples of 256, so dividing by 256, rounding down, keeps
+/// their signs. Pixels on an edge belong to the triangle if it is a left edge (the inside lies to
+/// its right) or a top edge (level, the inside below): the top-left rule.
 std::int64_t edge_origin(const SetupTriangle& t, int from, int to) {
     const std::int64_t a = t.y[from] - t.y[to], b = t.x[to] - t.x[from];
     const bool top_left = a > 0 || (a == 0 && b > 0);
@@ -50,12 +50,13 @@ std::int64_t edge_origin(const SetupTriangle& t, int from, int to) {
     return (value - (top_left ? 0 : 1)) >> 8;
 }
 
-PixelRect pixel_box(const SetupTriangle& t, FrameSize frame) {
-    const auto [x_low, x_high] = std::minmax({t.x[0], t.x[1], t.x[2]});
-    const auto [y_low, y_high] = std::minmax({t.y[0], t.y[1], t.y[2]});
-    return {std::max(first_pixel(x_low), 0), std::max(first_pixel(y_low), 0),
-            std::min(last_pixel(x_high), frame.width - 1),
-            std::min(last_pixel(y_high), frame.height - 1)};
+PixelRect pixel_box(const ScreenVertex (&v)[3], FrameSize frame) {
+    const auto [x_low, x_high] = std::minmax({v[0].x, v[1].x, v[2].x});
+    const auto [y_low, y_high] = std::minmax({v[0].y, v[1].y, v[2].y});
+    const auto pixel = [](std::int32_t x) { return static_cast<std::int16_t>(x); };
+    return {pixel(std::max(first_pixel(x_low), 0)), pixel(std::max(first_pixel(y_low), 0)),
+            pixel(std::min(last_pixel(x_high), frame.width - 1)),
+            pixel(std::min(last_pixel(y_high), frame.height - 1))};
 }
 
 }  // namespace
@@ -68,18 +69,17 @@ SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const
     if (area == 0) return SetupResult::degenerate;
     if (facing == Facing::front_only && area > 0) return SetupResult::culled;
     if (facing == Facing::back_only && area < 0) return SetupResult::culled;
+    out.box = pixel_box(v, frame);
+    if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return SetupResult::culled;
+    out.swapped = area < 0 ? 1 : 0;
     if (area < 0) {
         area = -area;
         std::swap(v[1], v[2]);
-        std::swap(out.vertex[1], out.vertex[2]);
     }
     for (int i = 0; i < 3; ++i) {
         out.x[i] = v[i].x;
         out.y[i] = v[i].y;
     }
-    out.box = pixel_box(out, frame);
-    if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return SetupResult::culled;
-    for (int i = 0; i < 3; ++i) out.c[i] = edge_origin(out, i, (i + 1) % 3);
     // At the farthest corner 1/w is smallest, so there the planes lose least to rounding: a floor
     // to the horizon had uv off by 0.008 texel with the first corner, 0.0003 with this one.
     const ScreenVertex& farthest = *std::max_element(
@@ -98,8 +98,8 @@ bool tile_triangle(const SetupTriangle& t, std::int32_t tile_x, std::int32_t til
     for (int i = 0; i < 3; ++i) {
         const int next = i < 2 ? i + 1 : 0;
         const std::int32_t a = t.y[i] - t.y[next], b = t.x[next] - t.x[i];
-        const std::int64_t c =
-            t.c[i] + static_cast<std::int64_t>(a) * left + static_cast<std::int64_t>(b) * top;
+        const std::int64_t c = edge_origin(t, i, next) + static_cast<std::int64_t>(a) * left +
+                               static_cast<std::int64_t>(b) * top;
         const std::int32_t across = a * kLast, down = b * kLast;
         if (c + std::max(across, 0) + std::max(down, 0) < 0) return false;
         out.a[edges] = a;

@@ -16,8 +16,7 @@ enum class SetupResult : std::uint8_t {
 /// are counter-clockwise as one sees them, so their area is negative.
 enum class Facing : std::uint8_t { any, front_only, back_only };
 
-/// Snapped corners to a SetupTriangle. `out.vertex`, `draw`, `number` and `clipped` must be set
-/// before; vertices are permuted along with the corners.
+/// Snapped corners to a SetupTriangle, but for its `number`, `draw` and `clipped`.
 SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2,
                            Facing facing, FrameSize frame, SetupTriangle& out);
 

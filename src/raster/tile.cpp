@@ -58,10 +58,7 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
     for (std::size_t i = 0; i < entries.size(); ++i) {
         constexpr std::size_t kAhead = 4;  // a mesh's triangles lie far apart along a tile
         if (i + kAhead < entries.size()) {
-            const auto* next =
-                reinterpret_cast<const char*>(&chunk.triangles()[entries[i + kAhead]]);
-            __builtin_prefetch(next);
-            __builtin_prefetch(next + 64);
+            __builtin_prefetch(&chunk.triangles()[entries[i + kAhead]]);
         }
         const SetupTriangle& triangle = chunk.triangles()[entries[i]];
         TileTriangle& seen = batch[ctx.count];

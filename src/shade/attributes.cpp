@@ -19,9 +19,10 @@ double dot(const Vector& a, const Vector& b) {
     return a.x * b.x + a.y * b.y + a.w * b.w;
 }
 
-/// Corner i in homogeneous window coordinates, counted from the centre of the reference pixel.
-Vector corner(const ScreenMesh& mesh, const SetupTriangle& t, std::size_t i) {
-    const HomogeneousVertex& h = mesh.homogeneous[t.vertex[i]];
+/// Corner i, at `vertex`, in homogeneous window coordinates, counted from the centre of the
+/// reference pixel.
+Vector corner(const ScreenMesh& mesh, const SetupTriangle& t, std::uint32_t vertex, std::size_t i) {
+    const HomogeneousVertex& h = mesh.homogeneous[vertex];
     const double w = static_cast<double>(h.w);
     const double centre_x = t.reference_x + 0.5, centre_y = t.reference_y + 0.5;
     if (t.clipped != 0) {
@@ -39,7 +40,9 @@ struct CornerRows {
 };
 
 CornerRows corner_rows(const ScreenMesh& mesh, const SetupTriangle& t) {
-    const Vector v[3] = {corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)};
+    const std::array<std::uint32_t, 3> vertex = corner_vertices(mesh, t);
+    const Vector v[3] = {corner(mesh, t, vertex[0], 0), corner(mesh, t, vertex[1], 1),
+                         corner(mesh, t, vertex[2], 2)};
     CornerRows rows{{cross(v[1], v[2]), cross(v[2], v[0]), cross(v[0], v[1])}, 0.0};
     rows.scale = 1.0 / dot(v[0], rows.row[0]);
     return rows;
@@ -65,15 +68,14 @@ bool surface_derivatives(const VertexFrame& a, const VertexFrame& b, const Verte
 
 }  // namespace
 
-void corner_attributes(const Shading& shading, const SetupTriangle& triangle,
-                       CornerAttributes& out) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        vertex_attributes(shading, triangle.vertex[i], out[i].data());
-    }
+void corner_attributes(const Shading& shading, const ScreenMesh& mesh,
+                       const SetupTriangle& triangle, CornerAttributes& out) {
+    const std::array<std::uint32_t, 3> vertex = corner_vertices(mesh, triangle);
+    for (std::size_t i = 0; i < 3; ++i) vertex_attributes(shading, vertex[i], out[i].data());
     const bool frames = shading.frame_attributes > kUvAttributes;
     if (!shading.frames_from_uv || !frames) return;
     glm::vec3 u, v;
-    const auto frame = [&](std::size_t i) { return shading.frames[triangle.vertex[i]]; };
+    const auto frame = [&](std::size_t i) { return shading.frames[vertex[i]]; };
     if (!surface_derivatives(frame(0), frame(1), frame(2), u, v)) return;
     for (auto& corner : out) {
         for (int c = 0; c < 3; ++c) {
@@ -98,7 +100,7 @@ Barycentrics barycentrics(const ScreenMesh& mesh, const SetupTriangle& triangle,
 void attribute_planes(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                       AttributePlane* out) {
     CornerAttributes values;
-    corner_attributes(shading, triangle, values);
+    corner_attributes(shading, mesh, triangle, values);
     CornerRows rows = corner_rows(mesh, triangle);
     std::array<Vector, 3>& b = rows.row;
     const auto count = static_cast<std::size_t>(shading.interpolated());

@@ -15,8 +15,8 @@ using CornerAttributes = std::array<std::array<float, kMaxInterpolated>, 3>;
 /// What the corners of a triangle hand to the interpolators: vertex_attributes, with T and B of the
 /// triangle itself where shading.frames_from_uv asks for it and uv have an area. They are dP/du and
 /// dP/dv, v growing upward, in double precision, each normalised and rounded to float.
-void corner_attributes(const Shading& shading, const SetupTriangle& triangle,
-                       CornerAttributes& out);
+void corner_attributes(const Shading& shading, const ScreenMesh& mesh,
+                       const SetupTriangle& triangle, CornerAttributes& out);
 
 /// Plane equations of 1/w and of the attributes over w, for the window pixels of a triangle,
 /// counted from its reference pixel. `out` holds shading.interpolated() + 1 planes.

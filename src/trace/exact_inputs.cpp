@@ -29,7 +29,7 @@ ExactInputs::ExactInputs(const Shading& shading, const ScreenMesh& mesh,
       m_attributes(kMaxAttributes),
       m_planes(static_cast<std::size_t>(shading.program.plane_count)) {
     CornerAttributes corner;
-    corner_attributes(shading, triangle, corner);
+    corner_attributes(shading, mesh, triangle, corner);
     const auto count = static_cast<std::size_t>(shading.interpolated());
     const std::array<Barycentrics, 3> places{barycentrics(mesh, triangle, x, y),
                                              barycentrics(mesh, triangle, x + 1, y),

@@ -83,10 +83,8 @@ class TracedFrame {
     /// Setup exchanges two corners of triangles that wind the other way round; here they stand as
     /// they were submitted.
     static void name_corners(const Draw& draw, const SetupTriangle& setup, TracedFragment& out) {
-        for (std::size_t i = 0; i < 3; ++i) out.vertices[i] = setup.vertex[i];
-        if (out.vertices[1] == draw.indices[3 * out.triangle + 1]) return;
-        std::swap(out.vertices[1], out.vertices[2]);
-        std::swap(out.barycentrics[1], out.barycentrics[2]);
+        for (std::size_t i = 0; i < 3; ++i) out.vertices[i] = draw.indices[3 * out.triangle + i];
+        if (setup.swapped != 0) std::swap(out.barycentrics[1], out.barycentrics[2]);
     }
 
     const Scene& m_scene;
