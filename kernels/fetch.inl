@@ -44,6 +44,7 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
     const float* v = packet.attributes + ctx.v * kAttributeStride;
     const float* q = packet.attributes + (ctx.q < 0 ? 0 : ctx.q) * kAttributeStride;
     const bool projective = ctx.q >= 0;
+    const int texel_shift = ctx.texel_shift;
     const std::int32_t width = ctx.width, height = ctx.height;
     const bool texels = ctx.rectangle != 0;
     const F32 whole_x(texels ? static_cast<float>(width) : 1.0F);
@@ -63,7 +64,7 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
         }
         const AxisAddress x = axis_address<ModeS, Linear>(s, width, whole_x, steps_x);
         const AxisAddress y = axis_address<ModeT, Linear>(t, height, whole_y, steps_y);
-        store(texel + i, y.texel * pitch + (x.texel << 2));
+        store(texel + i, y.texel * pitch + (x.texel << texel_shift));
         store_narrowed(weight_x + i, x.weight);
         store_narrowed(weight_y + i, y.weight);
     }

@@ -70,14 +70,15 @@ enum class AddressMode : std::uint8_t { repeat, clamp_to_edge, clamp_to_border, 
 /// Others: x0 < 0 becomes 0 with weight 0; x0 >= width becomes width - 1.
 /// rectangle: coordinates are in texels; 1, 2 and 256 * width above are width, width + 1 and 256.
 /// Not linear: weight 0. The right and the lower neighbours are in memory beside and below the
-/// texel in every case. Rows likewise. Offset = y0 * pitch + 4 * x0.
+/// texel in every case. Rows likewise. Offset = y0 * pitch + x0 * 2^texel_shift.
 struct AddressCtx {
     int u, v;                           ///< attribute planes
     int q;                              ///< attribute plane, or -1
     std::int32_t width, height, pitch;  ///< texels, texels, bytes
     AddressMode mode_s, mode_t;
     std::uint8_t linear;
-    std::uint8_t rectangle = 0;  ///< only with modes that clamp
+    std::uint8_t rectangle = 0;    ///< only with modes that clamp
+    std::uint8_t texel_shift = 2;  ///< 2: four bytes a texel; 3: eight
 };
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are

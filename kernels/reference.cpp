@@ -371,7 +371,7 @@ void address(Packet& packet, const AddressCtx& ctx) noexcept {
         const bool linear = ctx.linear != 0, rectangle = ctx.rectangle != 0;
         const TexelPosition s = texel_position(u, ctx.width, ctx.mode_s, linear, rectangle);
         const TexelPosition t = texel_position(v, ctx.height, ctx.mode_t, linear, rectangle);
-        packet.texel[i] = t.texel * ctx.pitch + 4 * s.texel;
+        packet.texel[i] = t.texel * ctx.pitch + s.texel * (1 << ctx.texel_shift);
         packet.weight_x[i] = s.weight;
         packet.weight_y[i] = t.weight;
     }

@@ -1,9 +1,3 @@
-std::int32_t word_at(const std::uint8_t* texel) {
-    std::int16_t word;
-    __builtin_memcpy(&word, texel, sizeof word);
-    return word;
-}
-
 /// Byte patterns for lanes of two fragments' texel pairs, words h l h l of the left and the right
 /// texel of one, then of the other.
 struct HiloPatterns {
@@ -63,22 +57,58 @@ void fetch_hilo(Packet& packet, const FetchHiloCtx& ctx) noexcept {
     }
 }
 
-/// -2^31 <= 2^16 * word, and 2^16 * 32767 + 2^15 < 2^31.
-void fetch_words(Packet& packet, const FetchWordsCtx& ctx) noexcept {
-    std::int16_t* const out = packet.planes + ctx.plane * kPacketSize;
-    const auto mix = [](std::int32_t a, std::int32_t b, std::int32_t w) {
-        return (256 - w) * a + w * b;
-    };
-    for (int i = 0; i < packet.count; ++i) {
-        const std::uint8_t* const upper = ctx.texels + packet.texel[i];
-        const std::uint8_t* const lower = upper + ctx.pitch;
-        const std::int32_t wx = packet.weight_x[i], wy = packet.weight_y[i];
-        for (int c = 0; c < 4; ++c) {
-            const std::int32_t top = mix(word_at(upper + 2 * c), word_at(upper + 8 + 2 * c), wx);
-            const std::int32_t bottom = mix(word_at(lower + 2 * c), word_at(lower + 8 + 2 * c), wx);
-            const std::int32_t x = (mix(top, bottom, wy) + 32768) >> 16;
-            out[i + c * kPacketSize] = static_cast<std::int16_t>((x + 32768 + 2) >> 2);
+/// Byte patterns for lanes of one fragment's texel pair, four words of the left and of the right.
+struct WordPatterns {
+    I16 interleave;  ///< channel by channel, left and right
+    I16 own[4];      ///< dword k of a lane, four times
+
+    WordPatterns() {
+        alignas(16) std::int8_t bytes[16];
+        for (int i = 0; i < 16; ++i)
+            bytes[i] = static_cast<std::int8_t>(i / 4 * 2 + i % 2 + (i & 2) * 4);
+        interleave = broadcast_lane(bytes);
+        for (int k = 0; k < 4; ++k) {
+            for (int i = 0; i < 16; ++i) bytes[i] = static_cast<std::int8_t>(4 * k + i % 4);
+            own[k] = broadcast_lane(bytes);
         }
+    }
+};
+
+/// -2^31 <= 2^16 * word, and 2^16 * 32767 + 2^15 < 2^31: parts may wrap, their sum does not. Vector
+/// k of four holds fragment 4 p + k in lane p; transposed, the lanes are in order.
+void fetch_words(Packet& packet, const FetchWordsCtx& ctx) noexcept {
+    const WordPatterns patterns;
+    std::int16_t* const out = packet.planes + ctx.plane * kPacketSize;
+    const std::uint8_t *const upper = ctx.texels, *const lower = ctx.texels + ctx.pitch;
+    const std::int32_t* const texel = packet.texel;
+    const auto *const weight_x = reinterpret_cast<const std::uint16_t*>(packet.weight_x),
+                      *const weight_y = reinterpret_cast<const std::uint16_t*>(packet.weight_y);
+    const auto words = [](I32 v) { return ::xsimd::bitwise_cast<I16>(v); };
+    const auto dwords = [](I16 v) { return ::xsimd::bitwise_cast<I32>(v); };
+    const int n = group_count(packet);
+    for (int i = 0; i < n; i += kLanes32) {
+        const I32 wx = load_widened(weight_x + i);
+        const I16 across = words((I32(256) - wx) | (wx << 16)),
+                  down = words(load_widened(weight_y + i));
+        const auto filtered = [&](int k) __attribute__((always_inline)) {
+            const I16 pair = shuffle_bytes(across, patterns.own[k]);
+            const auto row = [&](const std::uint8_t* base) {
+                const void* at[kParts];
+                for (int p = 0; p < kParts; ++p) at[p] = base + texel[i + 4 * p + k];
+                return mul_add_pairs(shuffle_bytes(load_lanes(at), patterns.interleave), pair);
+            };
+            const I32 top = row(upper), bottom = row(lower);
+            const I32 wy = dwords(shuffle_bytes(down, patterns.own[k]));
+            const I32 x = ((top << 8) + (bottom - top) * wy + I32(32768)) >> 16;
+            return words((x + I32(32768 + 2)) >> 2);
+        };
+        const I16 v0 = filtered(0), v1 = filtered(1), v2 = filtered(2), v3 = filtered(3);
+        const I16 rg01 = zip_lo32(v0, v1), rg23 = zip_lo32(v2, v3);
+        const I16 ba01 = zip_hi32(v0, v1), ba23 = zip_hi32(v2, v3);
+        store_narrowed(out + i, dwords(zip_lo64(rg01, rg23)));
+        store_narrowed(out + kPacketSize + i, dwords(zip_hi64(rg01, rg23)));
+        store_narrowed(out + 2 * kPacketSize + i, dwords(zip_lo64(ba01, ba23)));
+        store_narrowed(out + 3 * kPacketSize + i, dwords(zip_hi64(ba01, ba23)));
     }
 }
 

@@ -57,7 +57,8 @@ AddressCtx random_address(Random& random) {
     ctx.q = random.chance(2) ? 2 : -1;
     ctx.width = random.pick(kSides);
     ctx.height = random.pick(kSides);
-    ctx.pitch = 4 * (ctx.width + 3) + 4 * random.below(33);
+    ctx.texel_shift = static_cast<std::uint8_t>(random.chance(3) ? 3 : 2);
+    ctx.pitch = ((ctx.width + 3) << ctx.texel_shift) + 4 * random.below(33);
     constexpr std::array kModes{AddressMode::clamp_to_edge, AddressMode::clamp_to_border,
                                 AddressMode::repeat, AddressMode::mirrored_repeat};
     ctx.rectangle = static_cast<std::uint8_t>(random.chance(6) ? 1 : 0);
@@ -72,13 +73,15 @@ AddressCtx random_address(Random& random) {
 /// its row; every weight has 8 bits.
 void expect_inside(PacketMemory& packet, int end, const AddressCtx& ctx, const std::string& name) {
     const int left = ctx.mode_s == AddressMode::clamp_to_border ? 1 : 0;
+    const int texel_bytes = 1 << ctx.texel_shift;
     const int above = ctx.mode_t == AddressMode::clamp_to_border ? 1 : 0;
     for (int i = 0; i < end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        const std::int32_t offset = packet.texel[at] + above * ctx.pitch + 4 * left;
+        const std::int32_t offset = packet.texel[at] + above * ctx.pitch + texel_bytes * left;
         {
             ASSERT_TRUE(offset >= 0 && offset / ctx.pitch < ctx.height + 2 * above &&
-                        offset % ctx.pitch <= 4 * (ctx.width - 1 + 2 * left) && offset % 4 == 0)
+                        offset % ctx.pitch <= texel_bytes * (ctx.width - 1 + 2 * left) &&
+                        offset % ctx.pitch % texel_bytes == 0)
                 << name << ", fragment " << i << ": offset " << packet.texel[at] << " in "
                 << ctx.width << " x " << ctx.height << ", pitch " << ctx.pitch;
         }

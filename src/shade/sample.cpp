@@ -44,13 +44,13 @@ std::uint8_t signed_channels(const Texture& texture) {
 bool is_plain(const Texture& texture) {
     const bool flat =
         texture.target() != TextureTarget::cube && texture.target() != TextureTarget::three_d;
-    return flat && !has_words(texture.format()) && !needs_level_of_detail(texture);
+    return flat && !is_hilo(texture.format()) && !needs_level_of_detail(texture);
 }
 
 bool same(const AddressCtx& a, const AddressCtx& b) {
     return a.u == b.u && a.v == b.v && a.q == b.q && a.width == b.width && a.height == b.height &&
            a.pitch == b.pitch && a.mode_s == b.mode_s && a.mode_t == b.mode_t &&
-           a.linear == b.linear && a.rectangle == b.rectangle;
+           a.linear == b.linear && a.rectangle == b.rectangle && a.texel_shift == b.texel_shift;
 }
 
 void add_texture(FetchCtx& fetch, const Texture& texture, int plane) {
@@ -72,11 +72,16 @@ void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, 
         mode_of(sampler.wrap_s),
         mode_of(sampler.wrap_t),
         static_cast<std::uint8_t>(is_linear_within(sampler.filter) ? 1 : 0),
-        static_cast<std::uint8_t>(texture.target() == TextureTarget::rectangle ? 1 : 0)};
+        static_cast<std::uint8_t>(texture.target() == TextureTarget::rectangle ? 1 : 0),
+        static_cast<std::uint8_t>(has_words(texture.format()) ? 3 : 2)};
     const bool shares = plan.last && at.interpolated && same(*plan.last, address);
     if (!shares) ops.emplace_back(address);
     plan.last.reset();
     if (at.interpolated) plan.last = address;
+    if (has_words(texture.format())) {
+        ops.emplace_back(FetchWordsCtx{texture.texels(), plane, texture.pitch()});
+        return;
+    }
     auto* fetch = shares ? std::get_if<FetchCtx>(&ops.back()) : nullptr;
     if (fetch == nullptr || fetch->count == FetchCtx::kMaxTextures) {
         ops.emplace_back(FetchCtx{{}, {}, {}, 0, texture.pitch()});

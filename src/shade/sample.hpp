@@ -55,9 +55,9 @@ struct SamplePlan {
 [[nodiscard]] bool needs_level_of_detail(const Texture& texture);
 
 /// Operations that sample a texture, added to `ops`. Samples in a row with the same interpolated
-/// coordinates, sizes and sampler share addresses, levels of detail and up to four textures a
-/// fetch; of 3D textures and words each is alone. Throws Error{bad_program} for a texture of more
-/// coordinates than there are and for rgba16 in nine bits.
+/// coordinates, sizes and sampler share addresses, levels of detail and, of bytes, up to four
+/// textures a fetch; of 3D textures, and of words with levels, each is alone. Throws
+/// Error{bad_program} for a texture of more coordinates than there are and for rgba16 in nine bits.
 void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
                  const SampleTarget& target, SamplePlan& plan, std::vector<InputOp>& ops);
 
