@@ -212,6 +212,14 @@ I32 slice_behind(I32 slice, I32 depth, AddressMode mode) {
     return ::xsimd::select(next < depth, next, I32(0));
 }
 
+/// One number of every level.
+ShortTable table_of(const LevelAddressCtx& ctx, std::int32_t LevelAddressCtx::Level::*number,
+                    std::int32_t (&entries)[16]) {
+    static_assert(LevelAddressCtx::kMaxLevels <= 16);
+    for (int k = 0; k < 16; ++k) entries[k] = k < ctx.level_count ? ctx.levels[k].*number : 0;
+    return ShortTable(entries);
+}
+
 void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
     const auto attribute = [&](int k) {
         return packet.attributes + (k < 0 ? 0 : k) * kAttributeStride;
@@ -225,7 +233,12 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
     const std::uint16_t *const lambdas = codes(ctx.lambda), *const faces = codes(ctx.face);
     std::int16_t* const slice_weight =
         packet.planes + (ctx.slice_weight < 0 ? 0 : ctx.slice_weight) * kPacketSize;
-    const LevelAddressCtx::Level* const levels = ctx.levels;
+    using Level = LevelAddressCtx::Level;
+    std::int32_t entries[4][16];
+    const ShortTable widths = table_of(ctx, &Level::width, entries[0]),
+                     heights = table_of(ctx, &Level::height, entries[1]),
+                     depths = table_of(ctx, &Level::depth, entries[2]),
+                     offsets = table_of(ctx, &Level::offset, entries[3]);
     const LevelAxis axis_s{ctx.mode_s, ctx.rectangle != 0}, axis_t{ctx.mode_t, ctx.rectangle != 0},
         axis_r{ctx.mode_r, false};
     const I32 zero(0), last(ctx.level_count - 1);
@@ -236,24 +249,23 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
         const I32 lambda = ctx.lambda < 0 ? zero : load_widened(lambdas + i);
         const I32 half = ::xsimd::select(lambda > zero, min_half, mag_half);
         const I32 bits = ::xsimd::select(lambda > zero, min_bits, mag_bits);
-        const I32 level = chosen_level(ctx.choice, lambda, last) << 2;
-        const auto of_level = [&](const std::int32_t& first) { return look_up(&first, level); };
+        const I32 level = chosen_level(ctx.choice, lambda, last);
         F32 s = load(u + i), t = load(v + i);
         if (ctx.q >= 0) {
             s = divide(s, load(q + i));
             t = divide(t, load(q + i));
         }
-        const AxisAddress x = axis_s(s, of_level(levels->width), half, bits);
-        const AxisAddress y = axis_t(t, of_level(levels->height), half, bits);
+        const AxisAddress x = axis_s(s, widths(level), half, bits);
+        const AxisAddress y = axis_t(t, heights(level), half, bits);
         I32 layer = ctx.face < 0 ? zero : load_widened(faces + i);
         if (ctx.r >= 0) {
             const F32 p = ctx.q >= 0 ? divide(load(r + i), load(q + i)) : load(r + i);
-            const I32 depth = of_level(levels->depth);
+            const I32 depth = depths(level);
             const AxisAddress z = axis_r(p, depth, half, bits);
             layer = ctx.behind != 0 ? slice_behind(z.texel, depth, ctx.mode_r) : z.texel;
             if (ctx.slice_weight >= 0) store_narrowed(slice_weight + i, z.weight);
         }
-        store(packet.texel + i, of_level(levels->offset) + y.texel * I32(ctx.pitch) +
+        store(packet.texel + i, offsets(level) + y.texel * I32(ctx.pitch) +
                                     x.texel * I32(ctx.texel_bytes) + layer * I32(ctx.layer_bytes));
         store_narrowed(packet.weight_x + i, x.weight);
         store_narrowed(packet.weight_y + i, y.weight);

@@ -184,6 +184,13 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
 inline I32 look_up(const std::int32_t* table, I32 index) {
     return _mm512_i32gather_epi32(index, table, 4);
 }
+/// A table of 16 entries, looked up where it lies: in registers if they have a permutation, since a
+/// gather takes as long as dozens of them.
+struct ShortTable {
+    explicit ShortTable(const std::int32_t (&entries)[16]) : all(_mm512_loadu_si512(entries)) {}
+    I32 operator()(I32 index) const { return _mm512_permutexvar_epi32(index, all); }
+    __m512i all;
+};
 inline I16 broadcast_lane(const void* p) {
     return _mm512_broadcast_i32x4(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
@@ -273,6 +280,17 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
 inline I32 look_up(const std::int32_t* table, I32 index) {
     return _mm256_i32gather_epi32(table, index, 4);
 }
+struct ShortTable {
+    explicit ShortTable(const std::int32_t (&entries)[16])
+        : low(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(entries))),
+          high(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(entries + 8))) {}
+    I32 operator()(I32 index) const {
+        const __m256i is_high = _mm256_cmpgt_epi32(index, _mm256_set1_epi32(7));
+        return _mm256_blendv_epi8(_mm256_permutevar8x32_epi32(low, index),
+                                  _mm256_permutevar8x32_epi32(high, index), is_high);
+    }
+    __m256i low, high;
+};
 inline I16 broadcast_lane(const void* p) {
     return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
@@ -358,6 +376,11 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
 inline I32 look_up(const std::int32_t* table, I32 index) {
     return I32::gather(table, index);
 }
+struct ShortTable {
+    explicit ShortTable(const std::int32_t (&entries)[16]) : table(entries) {}
+    I32 operator()(I32 index) const { return I32::gather(table, index); }
+    const std::int32_t* table;
+};
 inline I16 broadcast_lane(const void* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p));
 }
@@ -449,6 +472,11 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
 inline I32 look_up(const std::int32_t* table, I32 index) {
     return I32::gather(table, index);
 }
+struct ShortTable {
+    explicit ShortTable(const std::int32_t (&entries)[16]) : table(entries) {}
+    I32 operator()(I32 index) const { return I32::gather(table, index); }
+    const std::int32_t* table;
+};
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));
 }
