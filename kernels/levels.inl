@@ -272,7 +272,20 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
     }
 }
 
-void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) noexcept {
+/// a + (b - a) w / 256 is a + ((b - a) w 128 + 2^14 >> 15), a rounding product, unless b - a
+/// needs 17 bits.
+template <bool Words>
+I16 blended(I16 a, I16 b, I16 w) {
+    if constexpr (!Words) return a + mul_round(b - a, w << 7);
+    const auto lerp = [](I32 from, I32 to, I32 by) {
+        return ((from << 8) + (to - from) * by + I32(128)) >> 8;
+    };
+    return narrow(lerp(widen_lo(a), widen_lo(b), widen_lo(w)),
+                  lerp(widen_hi(a), widen_hi(b), widen_hi(w)));
+}
+
+template <bool Words>
+void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) {
     const std::int16_t* const weight = packet.planes + ctx.weight * kPacketSize;
     const int n = group_count(packet);
     for (int c = 0; c < ctx.channels; ++c) {
@@ -283,12 +296,10 @@ void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) noexcept {
         for (int i = 0; i < n; i += kLanes) {
             const I16 w = load(weight + i) & I16(255);
             const I16 x = load(a + i) >> shift, y = load(b + i) >> shift;
-            const auto lerp = [](I32 from, I32 to, I32 by) {
-                return ((from << 8) + (to - from) * by + I32(128)) >> 8;
-            };
-            const I16 n16 = narrow(lerp(widen_lo(x), widen_lo(y), widen_lo(w)),
-                                   lerp(widen_hi(x), widen_hi(y), widen_hi(w)));
-            store(out + i, n16 << shift);
+            store(out + i, blended<Words>(x, y, w) << shift);
         }
     }
+}
+void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) noexcept {
+    ctx.words != 0 ? blend_levels<true>(packet, ctx) : blend_levels<false>(packet, ctx);
 }

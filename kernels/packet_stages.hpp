@@ -124,6 +124,7 @@ struct BlendLevelsCtx {
     int channels;   ///< 1 .. 4
     int weight;     ///< plane
     std::uint8_t doubled;
+    std::uint8_t words = 0;  ///< 1: a and b are any words; 0: |a - b| < 2^15
 };
 
 /// Attribute planes out, out + 1 of the words x in planes `plane`, plane + 1:

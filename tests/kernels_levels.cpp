@@ -285,11 +285,14 @@ TEST_P(KernelTest, BlendsWithEveryWeight) {
         packet.count = random.chance(2) ? kPacketSize : random.between(1, kPacketSize);
         const int channels = random.between(1, 4);
         const auto doubled = static_cast<std::uint8_t>(random.below(16));
+        const int range = random.chance(2) ? 1 : 2;  // words, or differences below 2^15
+        const auto words = static_cast<std::uint8_t>(range == 1 ? 1 : 0);
         for (int c = 0; c < 4; ++c) {
             for (int i = 0; i < kPacketSize; ++i) {
                 for (const int plane : {10 + c, 14 + c}) {
                     const int code =
-                        random.chance(2) ? random.pick(kEnds) : random.between(-32768, 32767);
+                        (random.chance(2) ? random.pick(kEnds) : random.between(-32768, 32767)) /
+                        range;
                     const int even = (doubled >> c & 1) != 0 ? code & ~1 : code;
                     packet.plane(plane)[i] = static_cast<std::int16_t>(even);
                 }
@@ -300,9 +303,10 @@ TEST_P(KernelTest, BlendsWithEveryWeight) {
         const int out = std::array{10, 14, 20}[static_cast<std::size_t>(random.below(3))];
         Written written;
         for (int c = 0; c < channels; ++c) written.planes.push_back(out + c);
-        ASSERT_EQ(stage_difference(table(), &KernelTable::blend_levels, packet,
-                                   BlendLevelsCtx{10, 14, out, channels, 5, doubled}, written),
-                  "")
+        ASSERT_EQ(
+            stage_difference(table(), &KernelTable::blend_levels, packet,
+                             BlendLevelsCtx{10, 14, out, channels, 5, doubled, words}, written),
+            "")
             << name("blend_levels") << ", seed " << seed;
     }
 }

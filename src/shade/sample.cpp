@@ -271,7 +271,8 @@ class LevelPlanner {
         const bool hilo = is_hilo(m_texture.format());
         const bool doubled = !hilo && m_plan.numbers == NumberModel::nine_bit;
         m_ops.emplace_back(BlendLevelsCtx{out, other, out, hilo ? 2 : 4, weight,
-                                          doubled ? signed_channels(m_texture) : std::uint8_t{0}});
+                                          doubled ? signed_channels(m_texture) : std::uint8_t{0},
+                                          static_cast<std::uint8_t>(hilo ? 1 : 0)});
     }
 
     const Texture& m_texture;
