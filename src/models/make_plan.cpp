@@ -600,11 +600,12 @@ class Planner {
             glm::dvec3 at[2]{glm::dvec3(x), glm::dvec3(y)}, result;
             tape.run(at, &result);
             if (!(std::abs(result.x) < 1e6))
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: a table that has no bound: {} is {} at {}{}, "
-                                        "expected less than 10^6, as with max(1/32, ...)",
-                                        e.line, e.column, print_expression(e), result.x, x,
-                                        args.size() == 2 ? fmt::format(", {}", y) : ""));
+                throw Error(
+                    ErrorCode::bad_program,
+                    fmt::format("model_text:{}:{}: a table that has no bound: {} is {} at {}{}, "
+                                "expected less than 10^6, as with max(1/32, ...)",
+                                e.line, e.column, print_expression(e), result.x, x,
+                                args.size() == 2 ? fmt::format(", {}", y) : ""));
             return result.x;
         };
         const bool is_2d = args.size() == 2;

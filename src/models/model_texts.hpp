@@ -3,11 +3,17 @@
 #include <burnish/scene.hpp>
 #include <string_view>
 
+#include "models/expression.hpp"
+
 namespace burnish {
 
 /// The model in the language of parse_model: what one light of colour 1 makes of the surface.
 /// Empty for Model::text, whose text the material has. Formulas and sources:
 /// burnish/reflectance.hpp.
 std::string_view model_text(Model model);
+
+/// The model of a material, be it built in or its own text. Throws Error{bad_program} with line and
+/// column for a text with errors.
+ExprPtr model_expression(const Material& material, ExprBuilder& builder);
 
 }  // namespace burnish
