@@ -257,7 +257,7 @@ TEST_P(PlanNumbers, InDoublePrecisionIsItsExpression) {
             TexelTape layer_values(layer);
             std::mt19937_64 engine(29);
             double worst = 0.0;
-            for (int i = 0; i < 400; ++i) {
+            for (int i = 0; i < 200; ++i) {
                 const TexelParameters& texel = all[static_cast<std::size_t>(i) % all.size()];
                 const Pixel pixel(engine);
                 std::vector<glm::dvec3> at(inputs.size());
