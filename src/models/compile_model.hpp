@@ -5,10 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "models/expression.hpp"
 #include "models/layer.hpp"
 #include "models/plan.hpp"
 
 namespace burnish {
+
+/// The model of `material` as an expression of named quantities and values of the pixel, in nodes of
+/// `builder`. Throws Error{bad_program} for what is wrong in a text, with line and column.
+ExprPtr model_expression(const Material& material, ExprBuilder& builder);
 
 /// A table of a compiled model, for reports.
 struct TableReport {
