@@ -13,11 +13,16 @@
 namespace burnish::app {
 namespace {
 
-/// White light and no ambient light: the constants of the program are the material's.
-CompiledModel compiled_for(const Material& material, std::string_view profile) {
+/// The profile, with as many passes as a model takes.
+Machine machine_of(std::string_view profile) {
     Machine machine = machine_profile(profile);
     machine.multipass = true;
-    return compile_model(material, machine.for_programs(), glm::vec3(1.0F), glm::vec3(0.0F));
+    return machine;
+}
+
+/// White light and no ambient light: the constants of the program are the material's.
+CompiledModel compiled_for(const Material& material, std::string_view profile) {
+    return compile_model(material, machine_of(profile), glm::vec3(1.0F), glm::vec3(0.0F));
 }
 
 /// What `profile` makes of the material; how it is refused without what the table says anyway.
@@ -101,6 +106,7 @@ void run(const CompileModelOptions& options) {
     report.machine = options.machine;
     try {
         report.compiled = compiled_for(report.material, options.machine);
+        report.estimate = estimate_error(report.material, machine_of(options.machine));
     } catch (const Error& error) {
         if (report.material_file.empty()) throw;
         throw Error(error.code(), fmt::format("{}: {}", report.material_file, error.what()));

@@ -5,6 +5,7 @@
 
 #include "app/compile.hpp"
 #include "models/compile_model.hpp"
+#include "models/error_estimate.hpp"
 
 /// What `burnish compile --model` has found out, as text for people and for programs.
 namespace burnish::app {
@@ -15,6 +16,7 @@ struct ModelReport {
     std::string material_file;  ///< empty: the default material
     std::string machine;
     CompiledModel compiled;
+    ErrorEstimate estimate;
     std::vector<ProfileVerdict> profiles;
 };
 

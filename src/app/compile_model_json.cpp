@@ -91,12 +91,13 @@ std::string model_report_json(const ModelReport& report) {
     return fmt::format(
         "{{\"model\": \"{}\", \"machine\": \"{}\", \"material\": {}, \"budget\": {}, \"inputs\": "
         "{}, \"layer\": {}, \"tables\": {}, \"passes\": {}, \"texture_shader\": {}, \"combiners\": "
-        "{}, \"profiles\": [{}]}}",
+        "{}, \"estimate\": {{\"rms\": {}, \"largest\": {}}}, \"profiles\": [{}]}}",
         report.model, report.machine, json_material(report), json_budget(compiled),
         json_inputs(compiled.program), json_list(compiled.layer, quantity),
         json_list(compiled.tables, json_table), json_list(compiled.passes, pass),
         texture_shader_json(compiled.program.texture_shader, {}),
-        combiners_json(compiled.program.combiners, {}), profiles_json(report.profiles));
+        combiners_json(compiled.program.combiners, {}), report.estimate.rms,
+        report.estimate.largest, profiles_json(report.profiles));
 }
 
 }  // namespace burnish::app

@@ -19,11 +19,11 @@ std::string numbers(const glm::dvec3& v) {
 
 std::string heading(const ModelReport& report) {
     const ModelNeeds& needs = report.compiled.needs;
-    return fmt::format(
-        "{} on {}: {}, {} ({} of the material, {}{}), {}\n", report.model, report.machine,
-        counted(pass_count(report.compiled), "pass"), counted(needs.units, "texture unit"),
-        map_count(needs), counted(needs.tables, "table"),
-        needs.third_vector ? ", 1 passes a vector on" : "", counted(needs.stages, "general stage"));
+    return fmt::format("{} on {}: {}, {} ({} of the material, {}{}), {}\n", report.model,
+                       report.machine, counted(pass_count(report.compiled), "pass"),
+                       counted(needs.units, "texture unit"), map_count(needs),
+                       counted(needs.tables, "table"), needs.third_vector ? ", 1 vector" : "",
+                       counted(needs.stages, "general stage"));
 }
 
 std::string material_text(const ModelReport& report) {
@@ -32,6 +32,10 @@ std::string material_text(const ModelReport& report) {
         return fmt::format("material: '{}' of {}\n", m.name, report.material_file);
     return fmt::format("material: the default, kd {}, ks {}, alpha_x {}, alpha_y {}, N {}\n",
                        numbers(m.kd), numbers(m.ks), m.alpha_x, m.alpha_y, m.exponent);
+}
+
+std::string estimate_text(const ErrorEstimate& estimate) {
+    return fmt::format("estimate: RMS {:.2g}, largest {:.2g}\n", estimate.rms, estimate.largest);
 }
 
 std::string inputs_text(const ProgramMaterial& m) {
@@ -58,10 +62,13 @@ std::string inputs_text(const ProgramMaterial& m) {
 /// How a channel's x of 0 .. 1 becomes the quantity.
 std::string decoding(const LayerQuantity& quantity) {
     if (!quantity.texture) return numbers(quantity.constant);
+    const bool below = glm::all(glm::lessThan(quantity.offset, glm::dvec3(0.0)));
     const bool shifted = quantity.offset != glm::dvec3(0.0);
     const std::string linear =
         fmt::format("{} x{}", numbers(quantity.scale),
-                    shifted ? fmt::format(" + {}", numbers(quantity.offset)) : "");
+                    shifted ? fmt::format(" {} {}", below ? '-' : '+',
+                                          numbers(below ? -quantity.offset : quantity.offset))
+                            : "");
     return quantity.logarithmic ? fmt::format("2^({})", linear) : linear;
 }
 
@@ -125,10 +132,11 @@ std::string model_report_text(const ModelReport& report) {
     const CompiledModel& compiled = report.compiled;
     const ProgramMaterial& program = compiled.program;
     return heading(report) + material_text(report) + "light: 1, without ambient light\n" +
-           inputs_text(program) + layer_text(compiled) + tables_text(compiled.tables) +
-           passes_text(compiled.passes) + machines_text(report.profiles) +
-           (program.texture_shader ? print_texture_shader(*program.texture_shader) : "") +
-           print_combiners(program.combiners);
+           estimate_text(report.estimate) + inputs_text(program) + layer_text(compiled) +
+           tables_text(compiled.tables) + passes_text(compiled.passes) +
+           machines_text(report.profiles) +
+           (program.texture_shader ? "\n" + print_texture_shader(*program.texture_shader) : "") +
+           "\n" + print_combiners(program.combiners);
 }
 
 }  // namespace burnish::app

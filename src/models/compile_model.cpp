@@ -79,7 +79,7 @@ AxisReport report_of(const PlanAxis& axis) {
 CompiledModel model_within(const Machine& room, const Material& material, const Machine& machine,
                            const glm::vec3& light, const glm::vec3& ambient) {
     ExprBuilder builder;
-    ExprPtr value = name_quantities(parsed(material, builder), builder);
+    ExprPtr value = model_expression(material, builder);
     const TexelSource source(material);
     PlanTask task;
     task.quantities = values_of(quantities_of(*value), source, task.most_tilt);
@@ -199,6 +199,10 @@ std::string with_passes(const Material& material, Machine machine, const ModelNe
 }
 
 }  // namespace
+
+ExprPtr model_expression(const Material& material, ExprBuilder& builder) {
+    return name_quantities(parsed(material, builder), builder);
+}
 
 CompiledModel compile_model(const Material& material, const Machine& machine,
                             const glm::vec3& light, const glm::vec3& ambient) {
