@@ -71,7 +71,7 @@ struct Planned {
     Planned(Model model, const std::vector<TexelParameters>& all, NumberModel numbers) {
         Material material;
         material.model = model;
-        value = name_quantities(model_expression(material, builder), builder);
+        value = model_expression(material, builder);
         quantities = quantities_of(*value);
         TexelTape tape(quantities);
         std::vector<glm::dvec3> at(quantities.size());

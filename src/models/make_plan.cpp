@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/dmath.hpp"
+#include "models/model_needs.hpp"
 #include "models/table_domain.hpp"
 
 namespace burnish {
@@ -334,9 +335,11 @@ class Planner {
             case ExprOp::add:
                 return addition(e);
             case ExprOp::maximum:
+                if (!is_number(*e.args[0], 0.0) && !is_number(*e.args[1], 0.0)) needs_table(e);
                 return positive(is_number(*e.args[0], 0.0) ? *e.args[1] : *e.args[0]);
             case ExprOp::minimum: {
                 const bool first = e.args[0]->op == ExprOp::constant;
+                if (!first && e.args[1]->op != ExprOp::constant) needs_table(e);
                 const Expr& bound = first ? *e.args[0] : *e.args[1];
                 return in_units(lower(first ? *e.args[1] : *e.args[0]), bound.value.x);
             }
@@ -355,9 +358,10 @@ class Planner {
         }
     }
     [[noreturn]] static void needs_table(const Expr& e) {
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("{}:{}: needs a table, the machine has no dependent fetch", e.line,
-                                e.column));
+        Shortage shortage(fmt::format("{} needs a table", print_expression(e)), {.tables = 1});
+        shortage.line = e.line;
+        shortage.column = e.column;
+        throw shortage;
     }
 
     Operand scalar_quantity(const Expr& e) {

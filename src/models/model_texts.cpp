@@ -5,6 +5,7 @@
 #include <burnish/error.hpp>
 
 #include "models/parse_model.hpp"
+#include "models/terms.hpp"
 
 namespace burnish {
 
@@ -111,7 +112,7 @@ ExprPtr model_expression(const Material& material, ExprBuilder& builder) {
     const std::string_view text =
         own ? std::string_view(material.model_text) : model_text(material.model);
     Parsed<ExprPtr> result = parse_model(text, builder);
-    if (result.program) return *result.program;
+    if (result.program) return name_quantities(*result.program, builder);
     const TextError& error = result.errors.front();
     throw Error(ErrorCode::bad_program,
                 fmt::format("material '{}', model_text:{}:{}: {}", material.name, error.line,

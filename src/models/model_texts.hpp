@@ -12,8 +12,9 @@ namespace burnish {
 /// burnish/reflectance.hpp.
 std::string_view model_text(Model model);
 
-/// The model of a material, be it built in or its own text. Throws Error{bad_program} with line and
-/// column for a text with errors.
+/// The model of a material, be it built in or its own text, as an expression of named quantities
+/// and values of the pixel, in nodes of `builder`. Throws Error{bad_program} for what is wrong in a
+/// text, with line and column.
 ExprPtr model_expression(const Material& material, ExprBuilder& builder);
 
 }  // namespace burnish

@@ -126,7 +126,7 @@ TextSurface operator+(TextSurface a, const TextSurface& b) {
 
 TextModel::TextModel(const Material& material) : m_source(material) {
     ExprBuilder builder;
-    m_value = name_quantities(model_expression(material, builder), builder);
+    m_value = model_expression(material, builder);
     m_quantities = quantities_of(*m_value);
     m_parameters = leaves_of(m_quantities, ExprOp::parameter);
     m_geometry = leaves_of({m_value.get()}, ExprOp::geometry);
