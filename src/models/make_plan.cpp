@@ -113,7 +113,7 @@ class Planner {
                 return;
             case ExprOp::maximum:
                 for (const ExprPtr& arg : e.args) {
-                    if (is_one_minus(*arg)) {
+                    if (m_cover.table(*arg) == nullptr && is_one_minus(*arg)) {
                         demand(*arg->args[1]->args[1], 1.0);
                     } else {
                         demand(*arg, reach);
