@@ -249,10 +249,11 @@ const Cover::Way& Cover::best(const Expr& e) {
     }
     // What is computed is as good as what is looked up, or better: a tie is the combiners'.
     if (hard && way.cost == kInfinity && m_price != TablePrice::none) {
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("{}:{}: a table that has no bound: expected arguments that stay "
-                                "finite, as with max(1/32, ...)",
-                                e.line, e.column));
+        throw Error(
+            ErrorCode::bad_program,
+            fmt::format("model_text:{}:{}: a table that has no bound: expected arguments that stay "
+                        "finite, as with max(1/32, ...)",
+                        e.line, e.column));
     }
     return m_best.emplace(&e, std::move(way)).first->second;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/dmath.hpp"
+#include "models/model_needs.hpp"
 #include "models/table_domain.hpp"
 
 namespace burnish {
@@ -341,9 +342,11 @@ class Planner {
             case ExprOp::add:
                 return addition(e);
             case ExprOp::maximum:
+                if (!is_number(*e.args[0], 0.0) && !is_number(*e.args[1], 0.0)) needs_table(e);
                 return positive(is_number(*e.args[0], 0.0) ? *e.args[1] : *e.args[0]);
             case ExprOp::minimum: {
                 const bool first = e.args[0]->op == ExprOp::constant;
+                if (!first && e.args[1]->op != ExprOp::constant) needs_table(e);
                 const Expr& bound = first ? *e.args[0] : *e.args[1];
                 return in_units(lower(first ? *e.args[1] : *e.args[0]), bound.value.x);
             }
@@ -362,9 +365,10 @@ class Planner {
         }
     }
     [[noreturn]] static void needs_table(const Expr& e) {
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("{}:{}: needs a table, the machine has no dependent fetch", e.line,
-                                e.column));
+        Shortage shortage(fmt::format("{} needs a table", print_expression(e)), {.tables = 1});
+        shortage.line = e.line;
+        shortage.column = e.column;
+        throw shortage;
     }
 
     Operand scalar_quantity(const Expr& e) {
@@ -608,11 +612,12 @@ class Planner {
             glm::dvec3 at[2]{glm::dvec3(x), glm::dvec3(y)}, result;
             tape.run(at, &result);
             if (!(std::abs(result.x) < 1e6))
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: a table that has no bound: {} is {} at {}{}, "
-                                        "expected less than 10^6, as with max(1/32, ...)",
-                                        e.line, e.column, print_expression(e), result.x, x,
-                                        args.size() == 2 ? fmt::format(", {}", y) : ""));
+                throw Error(
+                    ErrorCode::bad_program,
+                    fmt::format("model_text:{}:{}: a table that has no bound: {} is {} at {}{}, "
+                                "expected less than 10^6, as with max(1/32, ...)",
+                                e.line, e.column, print_expression(e), result.x, x,
+                                args.size() == 2 ? fmt::format(", {}", y) : ""));
             return result.x;
         };
         const bool is_2d = args.size() == 2;

@@ -1,5 +1,12 @@
 #include "models/model_texts.hpp"
 
+#include <fmt/format.h>
+
+#include <burnish/error.hpp>
+
+#include "models/parse_model.hpp"
+#include "models/terms.hpp"
+
 namespace burnish {
 
 // Tables need bounds. n.v is held above 1/32 where it divides, in every renderer. n.h is held above
@@ -107,6 +114,18 @@ s = 1 / sqrt(gv)
             break;
     }
     return {};
+}
+
+ExprPtr model_expression(const Material& material, ExprBuilder& builder) {
+    const bool own = material.model == Model::text;
+    const std::string_view text =
+        own ? std::string_view(material.model_text) : model_text(material.model);
+    Parsed<ExprPtr> result = parse_model(text, builder);
+    if (result.program) return name_quantities(*result.program, builder);
+    const TextError& error = result.errors.front();
+    throw Error(ErrorCode::bad_program,
+                fmt::format("material '{}', model_text:{}:{}: {}", material.name, error.line,
+                            error.column, error.message));
 }
 
 }  // namespace burnish
