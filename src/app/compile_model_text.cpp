@@ -131,12 +131,12 @@ std::string machines_text(const std::vector<ProfileVerdict>& profiles) {
 std::string model_report_text(const ModelReport& report) {
     const CompiledModel& compiled = report.compiled;
     const ProgramMaterial& program = compiled.program;
-    return heading(report) + material_text(report) + "light: 1, without ambient light\n" +
-           estimate_text(report.estimate) + inputs_text(program) + layer_text(compiled) +
-           tables_text(compiled.tables) + passes_text(compiled.passes) +
-           machines_text(report.profiles) +
-           (program.texture_shader ? "\n" + print_texture_shader(*program.texture_shader) : "") +
-           "\n" + print_combiners(program.combiners);
+    std::string text = heading(report) + material_text(report) +
+                       "light: 1, without ambient light\n" + estimate_text(report.estimate) +
+                       inputs_text(program) + layer_text(compiled) + tables_text(compiled.tables) +
+                       passes_text(compiled.passes) + machines_text(report.profiles) + "\n";
+    if (program.texture_shader) text += print_texture_shader(*program.texture_shader) + "\n";
+    return text + print_combiners(program.combiners);
 }
 
 }  // namespace burnish::app
