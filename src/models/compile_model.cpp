@@ -11,30 +11,27 @@
 
 #include "machine/material_passes.hpp"
 #include "models/bake.hpp"
+#include "models/bounds.hpp"
 #include "models/make_plan.hpp"
 #include "models/model_texts.hpp"
-#include "models/parse_model.hpp"
 #include "models/texel.hpp"
 
 namespace burnish {
 
 namespace {
 
-ExprPtr parsed(const Material& material, ExprBuilder& builder) {
-    const bool own = material.model == Model::text;
-    const std::string_view text =
-        own ? std::string_view(material.model_text) : model_text(material.model);
-    Parsed<ExprPtr> result = parse_model(text, builder);
-    if (result.program) return *result.program;
-    const TextError& error = result.errors.front();
+[[noreturn]] void fail_unbounded(const Expr& quantity, const std::string& material) {
+    const Expr& value = *quantity.args.front();
     throw Error(ErrorCode::bad_program,
-                fmt::format("material '{}', model_text:{}:{}: {}", material.name, error.line,
-                            error.column, error.message));
+                fmt::format("material '{}', model_text:{}:{}: {} is not finite at every texel, "
+                            "expected a bound, as max(1/32, ...)",
+                            material, value.line, value.column, print_expression(value)));
 }
 
 /// What quantities are over the texels.
 std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const Expr*>& quantities,
                                                        const TexelSource& source,
+                                                       const std::string& material,
                                                        double& most_tilt) {
     TexelTape tape(quantities);
     std::vector<glm::dvec3> at(quantities.size());
@@ -49,6 +46,7 @@ std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const E
             for (std::size_t i = 0; i < at.size(); ++i) {
                 QuantityValues& v = values[i];
                 const double length = std::sqrt(glm::dot(at[i], at[i]));
+                if (!std::isfinite(length)) fail_unbounded(*quantities[i], material);
                 if (first) v.somewhere = at[i];
                 v.low = first ? at[i] : glm::min(v.low, at[i]);
                 v.high = first ? at[i] : glm::max(v.high, at[i]);
@@ -60,14 +58,7 @@ std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const E
         }
     }
     std::map<const Expr*, QuantityValues, ByAge> result;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const QuantityValues& v = values[i];
-        if (!std::isfinite(v.longest))
-            throw Error(ErrorCode::bad_program,
-                        fmt::format("quantity '{}' of the material is not finite everywhere",
-                                    quantities[i]->name));
-        result.emplace(quantities[i], v);
-    }
+    for (std::size_t i = 0; i < at.size(); ++i) result.emplace(quantities[i], values[i]);
     return result;
 }
 
@@ -82,7 +73,7 @@ CompiledModel model_within(const Machine& room, const Material& material, const 
     ExprPtr value = model_expression(material, builder);
     const TexelSource source(material);
     PlanTask task;
-    task.quantities = values_of(quantities_of(*value), source, task.most_tilt);
+    task.quantities = values_of(quantities_of(*value), source, material.name, task.most_tilt);
 
     // Numbers and colours that do not vary are constants of the program.
     std::vector<std::pair<const Expr*, glm::dvec3>> constants;
@@ -115,6 +106,7 @@ CompiledModel model_within(const Machine& room, const Material& material, const 
     for (const ModelTerm& term : terms) {
         if (term.scalar) roots.push_back(term.scalar.get());
     }
+    require_bounds(roots, ranges, material.name);
     const TablePrice price = machine.stage_fetches ? TablePrice::fetch
                              : room.stage_fetches  ? TablePrice::passes
                                                    : TablePrice::none;
@@ -199,10 +191,6 @@ std::string with_passes(const Material& material, Machine machine, const ModelNe
 }
 
 }  // namespace
-
-ExprPtr model_expression(const Material& material, ExprBuilder& builder) {
-    return name_quantities(parsed(material, builder), builder);
-}
 
 CompiledModel compile_model(const Material& material, const Machine& machine,
                             const glm::vec3& light, const glm::vec3& ambient) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "models/expression.hpp"
 #include "models/layer.hpp"
 #include "models/model_needs.hpp"
 
@@ -19,10 +18,6 @@ struct AxisReport {
     bool logarithmic = false;        ///< texels lie at equal ratios, not at equal differences
     int texels = 1;
 };
-
-/// The model of `material` as an expression of named quantities and values of the pixel, in nodes
-/// of `builder`. Throws Error{bad_program} for what is wrong in a text, with line and column.
-ExprPtr model_expression(const Material& material, ExprBuilder& builder);
 
 /// A table of a compiled model, for reports.
 struct TableReport {

@@ -27,6 +27,9 @@ constexpr double kPasses = 6.0;
 /// And for interpolation that is off by the table's whole height.
 constexpr double kRoughness = 1000.0;
 
+/// Of a wide register, over its largest number: what arithmetic rounds to.
+constexpr double kCode = 0x1p-14;
+
 bool is_leaf(const Expr& e) {
     return e.op == ExprOp::constant || e.op == ExprOp::geometry || e.op == ExprOp::quantity ||
            e.op == ExprOp::parameter || e.op == ExprOp::dot;
@@ -153,18 +156,38 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
     return m_cuts.emplace(&e, std::move(found)).first->second;
 }
 
-double Cover::table_cost(const Expr& e, const NodeSet& cut) {
-    if (m_price == TablePrice::none || cut.empty() || cut.contains(&e)) return kInfinity;
+Cover::Way Cover::looked_up(const Expr& e, const NodeSet& cut) {
+    Way way;
+    way.cost = kInfinity;
+    if (m_price == TablePrice::none || cut.empty() || cut.contains(&e)) return way;
     double cost = cut.size() == 1 ? kTable1d : kTable2d;
     if (m_price == TablePrice::passes) cost += kPasses;
     bool of_pixel = false;
     for (const Expr* arg : cut) {
-        if (arg->kind != ValueKind::scalar || !bounded(*arg)) return kInfinity;
+        if (arg->kind != ValueKind::scalar || !bounded(*arg)) return way;
         of_pixel |= arg->binding == Binding::pixel;
         cost += best(*arg).cost;
     }
-    if (!of_pixel) return kInfinity;
-    return cost + kRoughness * table_domain(e, {cut.begin(), cut.end()}, m_ranges, m_numbers).error;
+    if (!of_pixel) return way;
+    way.is_table = true;
+    way.cut.args.assign(cut.begin(), cut.end());
+    const TableDomain domain = table_domain(e, way.cut.args, m_ranges, m_numbers);
+    double error = domain.error;
+    for (std::size_t i = 0; i < way.cut.args.size(); ++i) {
+        const Expr& arg = *way.cut.args[i];
+        double off = best(arg).error;
+        if (m_numbers == NumberModel::wide && !is_leaf(arg)) {
+            const Interval& range = domain.arguments[i];
+            off += kCode * std::max(std::abs(range.low), std::abs(range.high));
+        }
+        if (off > 0.0) error += off * domain.slopes[i] / domain.height;
+    }
+    if (m_numbers == NumberModel::wide) error += kCode;
+    way.height = domain.height;
+    way.error = error * domain.height;
+    way.cost = cost + kRoughness * error;
+    if (std::isnan(way.cost)) way.cost = kInfinity;
+    return way;
 }
 
 const Cover::Way& Cover::best(const Expr& e) {
@@ -201,7 +224,14 @@ const Cover::Way& Cover::best(const Expr& e) {
                 way.cost = arg(0) + arg(1);
             break;
         case ExprOp::minimum:
-            if (is_constant(0) || is_constant(1)) way.cost = arg(0) + arg(1) + kOperation;
+            if (is_constant(0) || is_constant(1)) {
+                const Way& below = best(*e.args[is_constant(0) ? 1 : 0]);
+                const double bound = e.args[is_constant(0) ? 0 : 1]->value.x;
+                way.cost = arg(0) + arg(1) + kOperation;
+                // What is a small error of a high function is a large one of what is left of it.
+                if (below.is_table && bound > 0.0 && bound < below.height)
+                    way.cost += kRoughness * below.error * (1.0 / bound - 1.0 / below.height);
+            }
             break;
         case ExprOp::power:
             if (is_constant(1) && squarings(e.args[1]->value.x) > 0)
@@ -213,18 +243,17 @@ const Cover::Way& Cover::best(const Expr& e) {
     const bool hard = way.cost == kInfinity;
     for (const auto& cut : cuts(e)) {
         // Of equal cuts the lowest, which leaves most to the table.
-        const double cost = table_cost(e, cut);
-        if (cost > way.cost || (cost == way.cost && !way.is_table) || cost == kInfinity) continue;
-        way.cost = cost;
-        way.is_table = true;
-        way.cut.args.assign(cut.begin(), cut.end());
+        const Way table = looked_up(e, cut);
+        const bool is_better = table.cost < way.cost || (table.cost == way.cost && way.is_table);
+        if (table.cost < kInfinity && is_better) way = table;
     }
     // What is computed is as good as what is looked up, or better: a tie is the combiners'.
     if (hard && way.cost == kInfinity && m_price != TablePrice::none) {
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("{}:{}: a table that has no bound: expected arguments that stay "
-                                "finite, as with max(1/32, ...)",
-                                e.line, e.column));
+        throw Error(
+            ErrorCode::bad_program,
+            fmt::format("model_text:{}:{}: a table that has no bound: expected arguments that stay "
+                        "finite, as with max(1/32, ...)",
+                        e.line, e.column));
     }
     return m_best.emplace(&e, std::move(way)).first->second;
 }

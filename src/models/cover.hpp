@@ -55,13 +55,16 @@ class Cover {
   private:
     struct Way {
         double cost = 0.0;
+        /// Of a table: how far off it is, what its arguments are off included, and how high.
+        double error = 0.0, height = 0.0;
         bool is_table = false;
         TableCut cut;
     };
     const Way& best(const Expr& e);
     const std::vector<NodeSet>& cuts(const Expr& e);
     void choose(const Expr& e);
-    double table_cost(const Expr& e, const NodeSet& cut);
+    /// How `e` is looked up by a cut, at infinite cost if it cannot be.
+    Way looked_up(const Expr& e, const NodeSet& cut);
     [[nodiscard]] bool bounded(const Expr& e);
 
     Ranges& m_ranges;

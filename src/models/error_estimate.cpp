@@ -13,6 +13,7 @@
 #include "core/dmath.hpp"
 #include "models/compile_model.hpp"
 #include "models/map_sampler.hpp"
+#include "models/model_texts.hpp"
 #include "models/terms.hpp"
 #include "models/texel.hpp"
 
