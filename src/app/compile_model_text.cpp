@@ -73,13 +73,13 @@ std::string decoding(const LayerQuantity& quantity) {
 }
 
 std::string layer_text(const CompiledModel& compiled) {
-    std::vector<TableRow> rows{{"unit", "channels", "quantity", "", "value"}};
+    std::vector<TableRow> rows{{"unit", "channels", "quantity", "definition", "value"}};
     for (const LayerQuantity& q : compiled.layer) {
         const int unit = unit_of(q, compiled);
         const char* channels = q.components == 3 ? "rgb" : q.channel == 3 ? "a" : "r = g = b";
         rows.push_back({unit < 0 ? "constant" : fmt::format("tex{}", unit),
                         unit < 0 ? "-" : channels, q.name,
-                        q.definition == q.name ? "" : "= " + q.definition, decoding(q)});
+                        q.definition == q.name ? "" : q.definition, decoding(q)});
     }
     return "material, x a texel's channel of 0 .. 1\n" + text_table(rows, 2);
 }
