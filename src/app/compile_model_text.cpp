@@ -73,13 +73,13 @@ std::string decoding(const LayerQuantity& quantity) {
 }
 
 std::string layer_text(const CompiledModel& compiled) {
-    std::vector<TableRow> rows{{"unit", "channels", "quantity", "", "value"}};
+    std::vector<TableRow> rows{{"unit", "channels", "quantity", "definition", "value"}};
     for (const LayerQuantity& q : compiled.layer) {
         const int unit = unit_of(q, compiled);
         const char* channels = q.components == 3 ? "rgb" : q.channel == 3 ? "a" : "r = g = b";
         rows.push_back({unit < 0 ? "constant" : fmt::format("tex{}", unit),
                         unit < 0 ? "-" : channels, q.name,
-                        q.definition == q.name ? "" : "= " + q.definition, decoding(q)});
+                        q.definition == q.name ? "" : q.definition, decoding(q)});
     }
     return "material, x a texel's channel of 0 .. 1\n" + text_table(rows, 2);
 }
@@ -131,12 +131,12 @@ std::string machines_text(const std::vector<ProfileVerdict>& profiles) {
 std::string model_report_text(const ModelReport& report) {
     const CompiledModel& compiled = report.compiled;
     const ProgramMaterial& program = compiled.program;
-    return heading(report) + material_text(report) + "light: 1, without ambient light\n" +
-           estimate_text(report.estimate) + inputs_text(program) + layer_text(compiled) +
-           tables_text(compiled.tables) + passes_text(compiled.passes) +
-           machines_text(report.profiles) +
-           (program.texture_shader ? "\n" + print_texture_shader(*program.texture_shader) : "") +
-           "\n" + print_combiners(program.combiners);
+    std::string text = heading(report) + material_text(report) +
+                       "light: 1, without ambient light\n" + estimate_text(report.estimate) +
+                       inputs_text(program) + layer_text(compiled) + tables_text(compiled.tables) +
+                       passes_text(compiled.passes) + machines_text(report.profiles) + "\n";
+    if (program.texture_shader) text += print_texture_shader(*program.texture_shader) + "\n";
+    return text + print_combiners(program.combiners);
 }
 
 }  // namespace burnish::app

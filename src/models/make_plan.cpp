@@ -749,13 +749,22 @@ class Planner {
     void finish() {
         glm::dvec3 base = m_task.ambient;
         std::vector<Product> products;
+        std::vector<const ModelTerm*> of_vertices;
         for (const ModelTerm& term : *m_task.terms) {
-            const glm::dvec3 light = m_task.light * term.factor;
-            if (light == glm::dvec3(0.0)) continue;
+            if (m_task.light * term.factor == glm::dvec3(0.0)) continue;
             if (comes_with_vertices(term)) {
-                m_plan.lit_tint += light;
+                of_vertices.push_back(&term);
             } else {
                 products.push_back(lit(term));
+            }
+        }
+        // Their colour is the one that a second vector takes.
+        const bool has_place = vector_inputs() < 2;
+        for (const ModelTerm* term : of_vertices) {
+            if (has_place) {
+                m_plan.lit_tint += m_task.light * term->factor;
+            } else {
+                products.push_back(lit(*term));
             }
         }
         const auto last = std::find_if(products.begin(), products.end(),
@@ -781,6 +790,12 @@ class Planner {
             products.push_back({constant_base, one(), 1.0});
         }
         if (!products.empty()) m_plan.final.d = summed(products);
+    }
+
+    [[nodiscard]] std::ptrdiff_t vector_inputs() const {
+        return std::count_if(m_plan.values.begin(), m_plan.values.end(), [](const PlanValue& v) {
+            return v.op == PlanOp::input && v.kind == ValueKind::vector;
+        });
     }
 
     bool comes_with_vertices(const ModelTerm& term) const {
