@@ -156,19 +156,21 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
     return m_cuts.emplace(&e, std::move(found)).first->second;
 }
 
-Cover::Way Cover::looked_up(const Expr& e, const NodeSet& cut) {
-    Way way;
-    way.cost = kInfinity;
-    if (m_price == TablePrice::none || cut.empty() || cut.contains(&e)) return way;
+double Cover::cost_of_fetch(const Expr& e, const NodeSet& cut) {
+    if (m_price == TablePrice::none || cut.empty() || cut.contains(&e)) return kInfinity;
     double cost = cut.size() == 1 ? kTable1d : kTable2d;
     if (m_price == TablePrice::passes) cost += kPasses;
     bool of_pixel = false;
     for (const Expr* arg : cut) {
-        if (arg->kind != ValueKind::scalar || !bounded(*arg)) return way;
+        if (arg->kind != ValueKind::scalar || !bounded(*arg)) return kInfinity;
         of_pixel |= arg->binding == Binding::pixel;
         cost += best(*arg).cost;
     }
-    if (!of_pixel) return way;
+    return of_pixel ? cost : kInfinity;
+}
+
+Cover::Way Cover::looked_up(const Expr& e, const NodeSet& cut, double cost) {
+    Way way;
     way.is_table = true;
     way.cut.args.assign(cut.begin(), cut.end());
     const TableDomain domain = table_domain(e, way.cut.args, m_ranges, m_numbers);
@@ -241,11 +243,14 @@ const Cover::Way& Cover::best(const Expr& e) {
             break;
     }
     const bool hard = way.cost == kInfinity;
-    for (const auto& cut : cuts(e)) {
-        // Of equal cuts the lowest, which leaves most to the table.
-        const Way table = looked_up(e, cut);
-        const bool is_better = table.cost < way.cost || (table.cost == way.cost && way.is_table);
-        if (table.cost < kInfinity && is_better) way = table;
+    // From the lowest cut on, which of equal ones leaves most to the table; and what is too dear
+    // without its errors is not looked at.
+    const std::vector<NodeSet>& all = cuts(e);
+    for (auto cut = all.rbegin(); cut != all.rend(); ++cut) {
+        const double cost = cost_of_fetch(e, *cut);
+        if (!(cost < way.cost)) continue;
+        const Way table = looked_up(e, *cut, cost);
+        if (table.cost < way.cost) way = table;
     }
     // What is computed is as good as what is looked up, or better: a tie is the combiners'.
     if (hard && way.cost == kInfinity && m_price != TablePrice::none) {

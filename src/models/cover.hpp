@@ -63,8 +63,10 @@ class Cover {
     const Way& best(const Expr& e);
     const std::vector<NodeSet>& cuts(const Expr& e);
     void choose(const Expr& e);
-    /// How `e` is looked up by a cut, at infinite cost if it cannot be.
-    Way looked_up(const Expr& e, const NodeSet& cut);
+    /// Without its errors, what a fetch by a cut costs: infinite where it cannot be had.
+    double cost_of_fetch(const Expr& e, const NodeSet& cut);
+    /// How `e` is looked up by a cut.
+    Way looked_up(const Expr& e, const NodeSet& cut, double cost);
     [[nodiscard]] bool bounded(const Expr& e);
 
     Ranges& m_ranges;
