@@ -18,6 +18,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLog2E = 1.4426950408889634;
 constexpr std::size_t kMostArguments = 2;
 
+/// Of a node; the lowest are kept. Built-in models have up to 26, long texts would have thousands.
+constexpr std::size_t kMostCuts = 64;
+
 /// In halves of a stage's portion: what a model is charged for.
 constexpr double kOperation = 1.0, kTable1d = 2.0, kTable2d = 3.5;
 
@@ -150,7 +153,9 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
                 }
                 merged = std::move(wider);
             }
-            found.insert(found.end(), merged.begin(), merged.end());
+            const std::size_t kept = std::min(merged.size(), kMostCuts);
+            found.insert(found.end(), merged.end() - static_cast<std::ptrdiff_t>(kept),
+                         merged.end());
         }
     }
     return m_cuts.emplace(&e, std::move(found)).first->second;
