@@ -1,6 +1,13 @@
+#include <burnish/error.hpp>
+#include <burnish/materials.hpp>
+#include <burnish/program_text.hpp>
+
+#include "models/compile_model.hpp"
+#include "models/error_estimate.hpp"
+#include "tests/json.hpp"
 #include "tests/run_command.hpp"
 
-/// `burnish compile` as a user sees it.
+/// `burnish compile` as a user sees it, and what it tells of models.
 namespace burnish {
 namespace {
 
@@ -135,6 +142,238 @@ TEST_F(Compile, WrongUsage) {
     const Result help = run("compile --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_SAYS(help.out, "FILE.rc");
+}
+
+/// In a white light, and without light from elsewhere.
+CompiledModel compiled(const Material& material, std::string_view profile, bool multipass) {
+    Machine machine = machine_profile(profile);
+    machine.multipass = multipass;
+    return compile_model(material, machine, glm::vec3(1.0F), glm::vec3(0.0F));
+}
+
+std::string refusal(const Material& material, std::string_view profile, bool multipass) {
+    try {
+        compiled(material, profile, multipass);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_program);
+        return error.what();
+    }
+    return "";
+}
+
+Material of_model(Model model) {
+    Material material;
+    material.model = model;
+    return material;
+}
+
+Material of_text(const std::string& text) {
+    Material material = of_model(Model::text);
+    material.name = "own";
+    material.model_text = text;
+    material.kd = {0.2F, 0.3F, 0.4F};
+    return material;
+}
+
+/// Texts give the program again; the budget is the program's; the machine runs every pass.
+void expect_whole(const CompiledModel& model, const Machine& machine) {
+    const CombinerProgram& program = model.program.combiners;
+    const Parsed<CombinerProgram> again = parse_combiners(print_combiners(program));
+    ASSERT_TRUE(again.program) << again.errors.front().message;
+    EXPECT_EQ(*again.program, program);
+    if (model.program.texture_shader) {
+        const std::string text = print_texture_shader(*model.program.texture_shader);
+        EXPECT_EQ(parse_texture_shader(text).program, model.program.texture_shader) << text;
+    }
+    EXPECT_EQ(static_cast<std::size_t>(model.needs.units), model.program.units.size());
+    EXPECT_EQ(static_cast<std::size_t>(model.needs.tables), model.tables.size());
+    EXPECT_EQ(static_cast<std::size_t>(model.needs.stages), program.stages.size());
+    if (model.passes.empty()) {
+        EXPECT_EQ(shortages(model.needs, machine), "");
+        EXPECT_NO_THROW(program.validate(machine));
+    } else {
+        EXPECT_NE(shortages(model.needs, machine), "");
+        for (const ProgramPass& pass : model.passes)
+            EXPECT_NO_THROW(pass.program.validate(machine));
+    }
+}
+
+TEST(CompileModel, EveryModelOnEveryMachine) {
+    for (const std::string_view name : model_names()) {
+        const Model model = *model_named(name);
+        for (const std::string_view profile : {"geforce256", "nv2a", "ideal"}) {
+            SCOPED_TRACE(std::string(name) + " on " + std::string(profile));
+            const bool has_tables = model != Model::blinn_phong && model != Model::abp &&
+                                    model != Model::abp_modified && model != Model::abp_modified_n4;
+            if (profile != "geforce256" || !has_tables) {
+                expect_whole(compiled(of_model(model), profile, true), machine_profile(profile));
+                continue;
+            }
+            const std::string said = refusal(of_model(model), profile, true);
+            EXPECT_TRUE(said.starts_with(std::string(name) + " on 'geforce256': needs ")) << said;
+            EXPECT_SAYS(said, "the machine has no dependent fetch; needs ");
+            EXPECT_SAYS(said, " texture units, it has 2; needs ");
+            EXPECT_SAYS(said, " general stages, it has 2");
+            EXPECT_EQ(said.find('\n'), std::string::npos);
+        }
+    }
+}
+
+/// n_dot_l * sqrt(h.n) is one vector, one map, one table over one dot product and one product.
+TEST(CompileModel, RefusalsCountAndSayWhere) {
+    const std::string said =
+        refusal(of_text("s = 1\nn_dot_l * ks * sqrt(max(0, dot(h, n)))"), "geforce256", false);
+    EXPECT_EQ(
+        said,
+        "material 'own', model_text:2:16 on 'geforce256': needs 1 dependent table, the machine "
+        "has no dependent fetch");
+    EXPECT_SAYS(refusal(of_text("ks * max(dot(l, n)^2, dot(h, n)^2)"), "geforce256", true),
+                "model_text:1:6 on 'geforce256': needs 1 dependent table, ");
+    EXPECT_SAYS(refusal(of_text("ks * min(dot(l, n)^2, dot(h, n)^2)"), "geforce256", true),
+                "model_text:1:6 on 'geforce256': needs 1 dependent table, ");
+    // Dot products of three vectors: two come as colours.
+    EXPECT_SAYS(
+        refusal(of_text("ks * dot(h, t)^2 * dot(l, t)^2 * dot(v, t)^2"), "geforce256", true),
+        "; needs three vectors at a pixel, it has colours for two and no pass_through");
+    // A map each, more than there are registers for.
+    std::string sum = "ks * dot(h, t)^2";
+    for (int i = 1; i < 20; ++i) sum += " + ks * dot(h, t + " + std::to_string(i) + " * b)^2";
+    EXPECT_EQ(refusal(of_text(sum), "ideal", false),
+              "material 'own', model_text on 'ideal': needs 20 texture units, the machine has 16");
+    // As many products as there are factors, one after the other.
+    std::string product = "ks * dot(h, n)";
+    for (int i = 1; i < 40; ++i) product += " * max(0, dot(h, n) - 0.0" + std::to_string(i) + ")";
+    EXPECT_SAYS(refusal(of_text(product), "geforce256", true), "; several passes have 16 together");
+}
+
+TEST(CompileModel, RefusalsSayWhatSeveralPassesWouldDo) {
+    EXPECT_EQ(refusal(of_model(Model::abp), "geforce256", false),
+              "abp on 'geforce256': needs 3 texture units, the machine has 2; in 2 passes it fits "
+              "(multipass)");
+    EXPECT_EQ(compiled(of_model(Model::abp), "geforce256", true).passes.size(), 2U);
+    // What is read with its sign cannot lie in a frame.
+    EXPECT_SAYS(
+        refusal(of_text("ks * dot(h, t)^2 * dot(l, b)^2 + kd * n_dot_l"), "geforce256", true),
+        "needs 4 general stages, the machine has 2; cannot be split into passes for ");
+    Machine cube = machine_profile("geforce256");
+    choose_half_vector(cube, "cube:32");
+    try {
+        compile_model(of_model(Model::abp_modified), cube.for_programs(), glm::vec3(1.0F),
+                      glm::vec3(0.0F));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_SAYS(std::string(error.what()),
+                    "needs 2 texture units, the machine has 1 besides the one that normalises half "
+                    "vectors");
+    }
+}
+
+/// Light that comes with the vertices has a place only beside one vector.
+TEST(CompileModel, TwoVectorsAndTheLightOfTheVertices) {
+    const Material material = of_text("ks * dot(h, t)^2 * dot(l, b)^2 + kd * n_dot_l");
+    const CompiledModel model = compiled(material, "nv2a", false);
+    EXPECT_EQ(model.program.col1_rgb, ColorInput::light_tangent);
+    EXPECT_EQ(model.program.col0_a, ColorInput::n_dot_l);
+}
+
+TEST_F(Compile, ModelOnGeforce256) {
+    const Result result = run("compile --model abp_modified --machine geforce256");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(result.out.starts_with(
+        "abp_modified on geforce256: 1 pass, 2 texture units (2 of the material, 0 tables), 2 "
+        "general stages\n"
+        "material: the default, kd 0, ks 1, alpha_x 0.15, alpha_y 0.5, N 2\n"
+        "light: 1, without ambient light\n"
+        "estimate: RMS 0.0"))
+        << result.out;
+    EXPECT_SAYS(result.out, "  col0.rgb  half_tangent\n  col0.a    n_dot_l\n");
+    // The lobe's x reaches 1 / 0.15 = 6.67, in a power of two 8: bytes are expanded to -8 .. 8.
+    EXPECT_SAYS(result.out, "  tex0      rgb       X         (t / alpha_x)  16 x - 8.03137\n");
+    EXPECT_SAYS(result.out, "  constant  -         ks                       1\n");
+    EXPECT_SAYS(result.out, "  geforce256  1 pass\n  nv2a        1 pass\n");
+    const std::string text = result.out.substr(result.out.find("!!RC1.0"));
+    const Parsed<CombinerProgram> program = parse_combiners(text);
+    ASSERT_TRUE(program.program);
+    EXPECT_EQ(print_combiners(*program.program), text);
+    EXPECT_EQ(program.program->stages.size(), 2U);
+}
+
+TEST_F(Compile, ModelInSeveralPasses) {
+    const Result result = run("compile --model ward --machine nv2a");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_SAYS(result.out,
+                "ward on nv2a: 5 passes, 7 texture units (3 of the material, 3 tables, "
+                "1 vector), 5 general stages\n");
+    EXPECT_SAYS(result.out, "                                    dot(h, n) = 0 .. 1, linear\n");
+    EXPECT_SAYS(result.out, "  1     1       spare0.b              tex0 = unit 0\n");
+    EXPECT_SAYS(result.out, "tex0 = the frame of pass 3");
+    EXPECT_SAYS(result.out, "  geforce256  cannot: needs 3 dependent tables, ");
+    EXPECT_SAYS(result.out,
+                "\n!!TS1.0\ntexture_2d();\ntexture_2d();\ntexture_2d();\n"
+                "pass_through();\n\n!!BRN1.0\n");
+}
+
+TEST_F(Compile, ModelAsJson) {
+    const Result result = run("compile --model ward --machine nv2a --json");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.out.find('\n'), result.out.size() - 1);
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json["model"].text, "ward");
+    EXPECT_EQ(json["budget"]["passes"].number, 5.0);
+    EXPECT_EQ(json["budget"]["tables"].number, 3.0);
+    EXPECT_EQ(json["passes"].list.size(), 5U);
+    EXPECT_EQ(json["passes"][4]["leaves"].kind, Json::Kind::null);
+    EXPECT_EQ(json["tables"].list.size(), 3U);
+    EXPECT_EQ(json["tables"][0]["axes"][0]["argument"].text, "dot(l, n)");
+    EXPECT_EQ(json["combiners"]["language"].text, "BRN1.0");
+    EXPECT_EQ(json["texture_shader"]["units"].list.size(), 4U);
+    EXPECT_EQ(json["inputs"]["uv"][3].text, "half_coded");
+    EXPECT_FALSE(json["profiles"][0]["runs"].boolean);
+    EXPECT_EQ(json["profiles"][1]["passes"].number, 5.0);
+    EXPECT_GT(json["estimate"]["rms"].number, 0.0);
+    EXPECT_GE(json["estimate"]["largest"].number, json["estimate"]["rms"].number);
+}
+
+TEST_F(Compile, MaterialFiles) {
+    const std::string begin = "schema = 1\n[material]\nname = \"own\"\nalpha_x = 0.25\n";
+    write(path("own.toml"), begin + "model_text = \"ks * sqrt(max(0, dot(h, n)))\"\n");
+    write(path("abp.toml"), begin + "model = \"abp\"\n");
+    write(path("pipe.toml"), begin + "combiners_text = \"!!RC1.0 out.rgb = col0;\"\n");
+    const Result result = run("compile --material own.toml");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("model_text on ideal: 1 pass, 2 texture units"))
+        << result.out;
+    EXPECT_SAYS(result.out, "material: 'own' of own.toml\n");
+    EXPECT_SAYS(run("compile --material abp.toml --machine nv2a").out, "abp on nv2a: ");
+    expect_failure("compile --material own.toml --machine geforce256", 3,
+                   "own.toml: material 'own', model_text:1:6 on 'geforce256': needs 1 dependent "
+                   "table");
+    expect_failure("compile --material abp.toml --model ward --machine geforce256", 3,
+                   "abp.toml: ward on 'geforce256': needs 3 dependent tables");
+    expect_failure("compile --material pipe.toml", 3, "pipe.toml: material 'own' is a pipeline");
+}
+
+TEST_F(Compile, RenderRefusesInTheSameWords) {
+    write_scene("scene.toml");
+    const Result compile = run("compile --model ward --machine geforce256");
+    const Result render = run("render scene.toml --model ward --machine geforce256 -o a.png");
+    EXPECT_EQ(compile.code, 3);
+    EXPECT_EQ(render.code, 3);
+    EXPECT_SAYS(compile.err,
+                "burnish: ward on 'geforce256': needs 3 dependent tables, the machine ");
+    EXPECT_EQ(render.err, compile.err);
+}
+
+TEST_F(Compile, WrongUsageOfModels) {
+    expect_failure("compile --model wrad", 2, "--model wrad, did you mean 'ward'?");
+    expect_failure("compile --model lambert", 2, "expected blinn_phong, abp, ");
+    expect_failure("compile --model ward --machine nv2", 2, "did you mean 'nv2a'?");
+    expect_failure("compile --model ward --machine double", 2, "expected geforce256, nv2a, ideal");
+    expect_failure("compile bump.rc --model ward", 2, "excludes");
+    expect_failure("compile --machine nv2a", 2,
+                   "expected FILE.rc, --model NAME or --material FILE");
+    EXPECT_SAYS(run("compile --help").out, "--model NAME");
 }
 
 }  // namespace

@@ -46,6 +46,41 @@ TEST_F(SceneMaterials, EveryModelHasItsName) {
     EXPECT_SAYS(complaint("model_text = \"\"\n"), "s.toml:14: [[materials]] has no 'model_text'");
 }
 
+// The place in the file, whichever way the text is quoted, escaped and broken into lines.
+TEST_F(SceneMaterials, ErrorsOfModelTextsStandWhereTheTextDoes) {
+    const std::string name = "unknown name 'foo', expected n, t, b,";
+    EXPECT_SAYS(complaint("model_text = \"ks * foo\"\n"), "s.toml:14:20: " + name);
+    EXPECT_SAYS(complaint("model_text  =  'ks * foo'\n"), "s.toml:14:22: " + name);
+    EXPECT_SAYS(complaint("model_text = \"x = 2\\nks*\\u0009foo\"\n"), "s.toml:14:31: " + name);
+    EXPECT_SAYS(
+        complaint("model_text = \"\"\"\nx = 2 # \xc3\xa9 \\U0001F600\\\"\nks * foo\"\"\"\n"),
+        "s.toml:16:6: " + name);
+    EXPECT_SAYS(complaint("model_text = '''x = 2\n\n  ks * foo'''\n"), "s.toml:16:8: " + name);
+    EXPECT_SAYS(complaint("model_text = \"\"\"\r\nx = 2\r\nks * foo\r\n\"\"\"\n"),
+                "s.toml:16:6: " + name);
+    EXPECT_SAYS(complaint("model_text = \"\"\"ks \\\n   \n   * foo\"\"\"\n"),
+                "s.toml:16:6: " + name);
+    EXPECT_SAYS(complaint("model_text = \"\"\"ks * \\  \n  foo\"\"\"\n"), "s.toml:15:3: " + name);
+    // What is missing at the end is expected there.
+    EXPECT_EQ(complaint("model_text = \"ks * (2\"\n"), "s.toml:14:22: the end, expected ')'");
+    EXPECT_EQ(complaint("model_text = \"\"\"\nks * (2\n\"\"\"\n"),
+              "s.toml:15:8: the end of the statement, expected ')'");
+    EXPECT_EQ(complaint("model_text = \"ks / (2 - 2)\"\n"),
+              "s.toml:14:18: division by a constant zero, expected another divisor");
+    EXPECT_EQ(complaint("kd = 0.1 # \xc3\xa9\nmodel_text = \"n\"\n"),
+              "s.toml:15:15: the value is a vector, expected a colour or a number");
+}
+
+TEST_F(SceneMaterials, ErrorsOfModelTextsFromElsewhereSayFromWhere) {
+    write(path("m.toml"), "schema = 1\n[material]\nmodel_text = '''\nks *\n'''\n");
+    EXPECT_EQ(complaint("file = \"m.toml\"\n"),
+              "s.toml:14: m.toml:4:5: the end of the statement, expected a name, a number or '('");
+    write(path("s.toml"), "schema = 1\n[[materials]]\nname = \"m\"\n");
+    EXPECT_EQ(complaint_of([&] { load_scene(path("s.toml"), {"materials.m.model_text=ks * n"}); }),
+              "-D materials.m.model_text=ks * n: model_text:1:4: a colour times a vector, expected "
+              "a number on one side");
+}
+
 TEST_F(SceneMaterials, ParametersAreNumbersOrMaps) {
     const auto numbers = material("alpha_x = 0.25\nalpha_y = 1\nexponent = 128\n");
     EXPECT_EQ(numbers->alpha_x, 0.25F);

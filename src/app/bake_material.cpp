@@ -62,13 +62,6 @@ std::string material_text(const GeneratedSet& set, std::string_view model, std::
     return text;
 }
 
-std::string_view name_of(Model model) {
-    for (const std::string_view name : model_names()) {
-        if (model_named(name) == model) return name;
-    }
-    return {};
-}
-
 }  // namespace
 
 void run(const BakeMaterialOptions& options) {
@@ -85,7 +78,7 @@ void run(const BakeMaterialOptions& options) {
     });
     save_truth(set, directory / "truth_kd.exr", [&](std::size_t i) { return set.kd[i]; });
     save_truth(set, directory / "truth_ks.exr", [&](std::size_t i) { return set.ks[i]; });
-    save_text(material_text(set, name_of(set.model), options.seed), directory / "material.toml");
+    save_text(material_text(set, model_name(set.model), options.seed), directory / "material.toml");
     fmt::print("{}: material.toml, {} maps of {} x {}, five files of true numbers\n",
                directory.string(), maps_of(set).size(), options.size, options.size);
 }

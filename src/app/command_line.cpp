@@ -105,6 +105,11 @@ std::string known_word(const std::string& option, const std::string& word,
     fail(fmt::format("{} {}, {}", option, word, expected_one_of(word, known)));
 }
 
+Model known_model(const std::string& name) {
+    const std::optional<Model> model = model_named(name);
+    return model ? *model : *model_named(known_word("--model", name, model_names()));
+}
+
 Register parse_register(const std::string& name) {
     std::vector<std::string_view> known;
     for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
@@ -220,11 +225,7 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
                     "Material file (.toml) for every mesh, instead of its own")
         ->type_name("FILE");
     verb.add_option_function<std::string>(
-            "--model",
-            [&picture](const std::string& name) {
-                picture.model = model_named(name);
-                if (!picture.model) known_word("--model", name, model_names());
-            },
+            "--model", [&picture](const std::string& name) { picture.model = known_model(name); },
             "Reflectance model of every mesh, instead of its material's; `burnish info` lists them")
         ->type_name("NAME");
     verb.add_flag("--multipass", picture.multipass,
@@ -307,12 +308,40 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
     add_aov(verb, options.shown);
 }
 
-void add_compile(CLI::App& verb, CompileOptions& options) {
-    verb.add_option("FILE.rc", options.combiners, "Combiners: !!RC1.0 or !!BRN1.0")
-        ->required()
-        ->type_name("");
-    verb.add_option("FILE.ts", options.texture_shader, "Texture shader: !!TS1.0")->type_name("");
-    verb.add_flag("--json", options.json, "Print JSON");
+/// The machines that run programs.
+std::vector<std::string_view> program_profiles() {
+    std::vector<std::string_view> names = machine_profile_names();
+    std::erase_if(names,
+                  [](std::string_view name) { return machine_profile(name).double_precision; });
+    return names;
+}
+
+/// A program's files, or a model.
+void add_compile(CLI::App& verb, CompileOptions& program, CompileModelOptions& model) {
+    CLI::Option* file =
+        verb.add_option("FILE.rc", program.combiners, "Combiners: !!RC1.0 or !!BRN1.0")
+            ->type_name("");
+    verb.add_option("FILE.ts", program.texture_shader, "Texture shader: !!TS1.0")->type_name("");
+    verb.add_option_function<std::string>(
+            "--model", [&model](const std::string& name) { model.model = known_model(name); },
+            "A reflectance model instead of a program, of the default material or of that of "
+            "--material; `burnish info` lists them")
+        ->excludes(file)
+        ->type_name("NAME");
+    verb.add_option("--material", model.material,
+                    "Material file (.toml): its parameters, and without --model its model")
+        ->excludes(file)
+        ->type_name("FILE");
+    verb.add_option_function<std::string>(
+            "--machine",
+            [&model](const std::string& name) {
+                model.machine = known_word("--machine", name, program_profiles());
+            },
+            "What to compile the model for: geforce256, nv2a or ideal, the default")
+        ->excludes(file)
+        ->type_name("PROFILE");
+    verb.add_flag_function(
+        "--json", [&](std::int64_t) { program.json = model.json = true; }, "Print JSON");
 }
 
 void add_bake_mesh(CLI::App& verb, BakeMeshOptions& options) {
@@ -403,6 +432,7 @@ struct Parser {
     TraceOptions trace;
     BenchOptions bench;
     CompileOptions compile;
+    CompileModelOptions compile_model;
     InfoOptions info;
     BakeBrushedOptions brushed;
     BakeMaterialOptions material;
@@ -419,7 +449,8 @@ struct Parser {
         bake_verb->add_subcommand("anisotropy", "KHR_materials_anisotropy to our widths, and back");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
-    CLI::App* compile_verb = app.add_subcommand("compile", "Checks and prints program texts");
+    CLI::App* compile_verb = app.add_subcommand(
+        "compile", "Checks and prints program texts, or the program of a reflectance model");
     CLI::App* info_verb =
         app.add_subcommand("info", "Version, instruction sets, profiles, formats");
 
@@ -430,7 +461,7 @@ struct Parser {
         add_render(*render_verb, render);
         add_trace(*trace_verb, trace);
         add_bench(*bench_verb, bench);
-        add_compile(*compile_verb, compile);
+        add_compile(*compile_verb, compile, compile_model);
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
         add_bake_material(*material_verb, material);
@@ -438,11 +469,17 @@ struct Parser {
         add_bake_mesh(*mesh_verb, mesh);
     }
 
+    Command what_to_compile() const {
+        if (!compile.combiners.empty()) return compile;
+        if (compile_model.model || !compile_model.material.empty()) return compile_model;
+        fail("compile: expected FILE.rc, --model NAME or --material FILE");
+    }
+
     Command chosen() const {
         if (render_verb->parsed()) return render;
         if (trace_verb->parsed()) return trace;
         if (bench_verb->parsed()) return bench;
-        if (compile_verb->parsed()) return compile;
+        if (compile_verb->parsed()) return what_to_compile();
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
         if (material_verb->parsed()) return material;

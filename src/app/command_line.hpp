@@ -73,6 +73,14 @@ struct CompileOptions {
     bool json = false;
 };
 
+/// A reflectance model instead of a program. Not both `model` and `material` are missing.
+struct CompileModelOptions {
+    std::optional<Model> model;      ///< instead of the material's own
+    std::filesystem::path material;  ///< empty: the default material
+    std::string machine = "ideal";
+    bool json = false;
+};
+
 struct InfoOptions {
     bool json = false;
 };
@@ -113,9 +121,9 @@ struct PrintText {
     std::string text;
 };
 
-using Command =
-    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions, InfoOptions,
-                 BakeBrushedOptions, BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
+using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
+                             CompileModelOptions, InfoOptions, BakeBrushedOptions,
+                             BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

@@ -29,6 +29,14 @@ std::string compiled_text(const Compiled& compiled);
 /// One object, one line; inputs as print_input writes them.
 std::string compiled_json(const Compiled& compiled);
 
+/// The "combiners" of that object; without a file for an empty name.
+std::string combiners_json(const CombinerProgram& program, const std::string& file);
+/// The "texture_shader", likewise.
+std::string texture_shader_json(const std::optional<TextureShader>& shader,
+                                const std::string& file);
+/// The "profiles".
+std::string profiles_json(const std::vector<ProfileVerdict>& profiles);
+
 /// The header of the oldest language that can say it, without the exclamation marks.
 std::string language_of(const CombinerProgram& program);
 

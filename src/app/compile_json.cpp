@@ -67,34 +67,39 @@ std::string json_final(const FinalCombiner& f) {
         json_input(f.f), json_input(f.g), f.clamp_color_sum);
 }
 
-std::string json_combiners(const Compiled& compiled) {
-    const CombinerProgram& program = compiled.combiners;
+std::string json_file(const std::string& file) {
+    return file.empty() ? "null" : json_string(file);
+}
+
+}  // namespace
+
+std::string combiners_json(const CombinerProgram& program, const std::string& file) {
     std::string stages;
     for (const GeneralStage& stage : program.stages)
         stages += (stages.empty() ? "" : ", ") + json_stage(stage);
     return fmt::format(
         "{{\"file\": {}, \"language\": \"{}\", \"const0\": {}, \"const1\": {}, \"stages\": [{}], "
         "\"final\": {}, \"text\": {}}}",
-        json_string(compiled.combiners_file), language_of(program), json_constant(program.const0),
+        json_file(file), language_of(program), json_constant(program.const0),
         json_constant(program.const1), stages, json_final(program.final_combiner),
         json_string(print_combiners(program)));
 }
 
-std::string json_texture_shader(const Compiled& compiled) {
-    if (!compiled.texture_shader) return "null";
+std::string texture_shader_json(const std::optional<TextureShader>& shader,
+                                const std::string& file) {
+    if (!shader) return "null";
     std::string units;
     for (int i = 0; i < kTextureShaderUnits; ++i) {
-        const TextureUnit& unit = compiled.texture_shader->units[static_cast<std::size_t>(i)];
+        const TextureUnit& unit = shader->units[static_cast<std::size_t>(i)];
         units += fmt::format("{}{{\"operation\": \"{}\", \"statement\": {}}}", i == 0 ? "" : ", ",
                              texture_operation_name(unit.operation),
-                             json_string(print_texture_unit(*compiled.texture_shader, i)));
+                             json_string(print_texture_unit(*shader, i)));
     }
-    return fmt::format("{{\"file\": {}, \"units\": [{}], \"text\": {}}}",
-                       json_string(compiled.texture_shader_file), units,
-                       json_string(print_texture_shader(*compiled.texture_shader)));
+    return fmt::format("{{\"file\": {}, \"units\": [{}], \"text\": {}}}", json_file(file), units,
+                       json_string(print_texture_shader(*shader)));
 }
 
-std::string json_profiles(const std::vector<ProfileVerdict>& profiles) {
+std::string profiles_json(const std::vector<ProfileVerdict>& profiles) {
     std::string list;
     for (const ProfileVerdict& verdict : profiles)
         list += fmt::format(
@@ -105,12 +110,11 @@ std::string json_profiles(const std::vector<ProfileVerdict>& profiles) {
     return list;
 }
 
-}  // namespace
-
 std::string compiled_json(const Compiled& compiled) {
     return fmt::format("{{\"combiners\": {}, \"texture_shader\": {}, \"profiles\": [{}]}}",
-                       json_combiners(compiled), json_texture_shader(compiled),
-                       json_profiles(compiled.profiles));
+                       combiners_json(compiled.combiners, compiled.combiners_file),
+                       texture_shader_json(compiled.texture_shader, compiled.texture_shader_file),
+                       profiles_json(compiled.profiles));
 }
 
 }  // namespace burnish::app

@@ -24,6 +24,7 @@ void run(const RenderOptions& options);
 void run(const TraceOptions& options);
 void run(const BenchOptions& options);
 void run(const CompileOptions& options);
+void run(const CompileModelOptions& options);
 void run(const InfoOptions& options);
 void run(const BakeBrushedOptions& options);
 void run(const BakeMaterialOptions& options);

@@ -14,29 +14,22 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ColorInput>, 7> kRgbInputs{
-    {{"vertex", ColorInput::vertex},
-     {"half_tangent", ColorInput::half_tangent},
-     {"light_tangent", ColorInput::light_tangent},
-     {"view_tangent", ColorInput::view_tangent},
-     {"normal", ColorInput::normal},
-     {"n_dot_l", ColorInput::n_dot_l},
-     {"h_dot_l", ColorInput::h_dot_l}}};
-constexpr std::array<std::pair<std::string_view, CoordinateInput>, 8> kCoordinateInputs{
-    {{"uv", CoordinateInput::uv},
-     {"half_tangent", CoordinateInput::half_tangent},
-     {"light_tangent", CoordinateInput::light_tangent},
-     {"view_tangent", CoordinateInput::view_tangent},
-     {"half_coded", CoordinateInput::half_coded},
-     {"light_coded", CoordinateInput::light_coded},
-     {"view_coded", CoordinateInput::view_coded},
-     {"vertex", CoordinateInput::vertex}}};
+/// Inputs with their words.
+template <class Input, class... More>
+std::array<std::pair<std::string_view, Input>, 1 + sizeof...(More)> named(Input first,
+                                                                          More... more) {
+    return {{{input_name(first), first}, {input_name(more), more}...}};
+}
+const auto kRgbInputs =
+    named(ColorInput::vertex, ColorInput::half_tangent, ColorInput::light_tangent,
+          ColorInput::view_tangent, ColorInput::normal, ColorInput::n_dot_l, ColorInput::h_dot_l);
+const auto kAlphaInputs = named(ColorInput::vertex, ColorInput::n_dot_l, ColorInput::h_dot_l);
+const auto kCoordinateInputs =
+    named(CoordinateInput::uv, CoordinateInput::half_tangent, CoordinateInput::light_tangent,
+          CoordinateInput::view_tangent, CoordinateInput::half_coded, CoordinateInput::light_coded,
+          CoordinateInput::view_coded, CoordinateInput::vertex);
 constexpr std::array<std::pair<std::string_view, BumpSource>, 2> kBumpSources{
     {{"dsdt", BumpSource::dsdt}, {"rgba8", BumpSource::rgba8}}};
-constexpr std::array<std::pair<std::string_view, ColorInput>, 3> kAlphaInputs{
-    {{"vertex", ColorInput::vertex},
-     {"n_dot_l", ColorInput::n_dot_l},
-     {"h_dot_l", ColorInput::h_dot_l}}};
 constexpr std::array<std::pair<std::string_view, MuxBit>, 2> kMuxBits{
     {{"msb", MuxBit::msb}, {"lsb", MuxBit::lsb}}};
 

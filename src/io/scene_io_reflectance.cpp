@@ -8,6 +8,7 @@
 
 #include "core/dmath.hpp"
 #include "io/scene_io_parts.hpp"
+#include "models/parse_model.hpp"
 #include "models/vector_encoding.hpp"
 
 namespace burnish {
@@ -34,6 +35,9 @@ void read_model(const Section& section, Material& material) {
                                               section.label(), *name));
         material.model = Model::text;
         material.model_text = section.required_text("model_text");
+        ExprBuilder builder;
+        const Parsed<ExprPtr> parsed = parse_model(material.model_text, builder);
+        if (!parsed.program) section.fail_in_text("model_text", parsed.errors.front());
         return;
     }
     if (!name) return;

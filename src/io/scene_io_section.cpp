@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/nearest.hpp"
+#include "io/scene_io_text.hpp"
 
 namespace burnish {
 namespace {
@@ -77,6 +78,17 @@ std::string Section::place(std::string_view key) const {
 
 void Section::fail(std::string_view key, const std::string& message) const {
     throw Error(ErrorCode::bad_input, place(key) + ": " + message);
+}
+
+void Section::fail_in_text(std::string_view key, const TextError& error) const {
+    const std::string text = required_text(key);
+    std::size_t offset = 0;
+    for (std::size_t line = 1; line < error.line; ++line) offset = text.find('\n', offset) + 1;
+    offset += error.column - 1;
+    const std::string place = place_in_string(*find(key), offset)
+                                  .value_or(fmt::format("{}: {}:{}:{}", place_of(*find(key)), key,
+                                                        error.line, error.column));
+    throw Error(ErrorCode::bad_input, place + ": " + error.message);
 }
 
 void Section::fail_type(std::string_view key, const toml::node& found,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <burnish/program_text.hpp>
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <limits>
@@ -90,6 +91,9 @@ class Section {
 
     /// Error at a key, or at the table if the key is missing.
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+    /// Error in the text that a key holds: at FILE:LINE:COLUMN, or, where that cannot be told, at
+    /// the key with line and column in its text.
+    [[noreturn]] void fail_in_text(std::string_view key, const TextError& error) const;
     [[noreturn]] void fail_unknown_word(std::string_view key, std::string_view word,
                                         std::span<const std::string_view> known) const;
 

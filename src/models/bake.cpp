@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/dmath.hpp"
 
@@ -14,9 +15,10 @@ constexpr int kWideOne = 16384;
 /// Parameters that quantities are made of.
 std::vector<const Expr*> parameters_of(const std::vector<const Expr*>& quantities) {
     std::vector<const Expr*> found;
+    std::set<const Expr*, ByAge> seen;
     const auto visit = [&](const auto& self, const Expr& e) -> void {
-        if (e.op == ExprOp::parameter && std::find(found.begin(), found.end(), &e) == found.end())
-            found.push_back(&e);
+        if (!seen.insert(&e).second) return;
+        if (e.op == ExprOp::parameter) found.push_back(&e);
         for (const ExprPtr& arg : e.args) self(self, *arg);
     };
     for (const Expr* q : quantities) visit(visit, *q);

@@ -4,34 +4,34 @@
 
 #include <algorithm>
 #include <burnish/error.hpp>
+#include <burnish/materials.hpp>
 #include <burnish/multipass.hpp>
 #include <cmath>
+#include <limits>
 
+#include "machine/material_passes.hpp"
 #include "models/bake.hpp"
+#include "models/bounds.hpp"
 #include "models/make_plan.hpp"
 #include "models/model_texts.hpp"
-#include "models/parse_model.hpp"
 #include "models/texel.hpp"
 
 namespace burnish {
 
 namespace {
 
-ExprPtr parsed(const Material& material, ExprBuilder& builder) {
-    const bool own = material.model == Model::text;
-    const std::string_view text =
-        own ? std::string_view(material.model_text) : model_text(material.model);
-    Parsed<ExprPtr> result = parse_model(text, builder);
-    if (result.program) return *result.program;
-    const TextError& error = result.errors.front();
+[[noreturn]] void fail_unbounded(const Expr& quantity, const std::string& material) {
+    const Expr& value = *quantity.args.front();
     throw Error(ErrorCode::bad_program,
-                fmt::format("material '{}', model_text:{}:{}: {}", material.name, error.line,
-                            error.column, error.message));
+                fmt::format("material '{}', model_text:{}:{}: {} is not finite at every texel, "
+                            "expected a bound, as max(1/32, ...)",
+                            material, value.line, value.column, print_expression(value)));
 }
 
 /// What quantities are over the texels.
 std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const Expr*>& quantities,
                                                        const TexelSource& source,
+                                                       const std::string& material,
                                                        double& most_tilt) {
     TexelTape tape(quantities);
     std::vector<glm::dvec3> at(quantities.size());
@@ -46,6 +46,7 @@ std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const E
             for (std::size_t i = 0; i < at.size(); ++i) {
                 QuantityValues& v = values[i];
                 const double length = std::sqrt(glm::dot(at[i], at[i]));
+                if (!std::isfinite(length)) fail_unbounded(*quantities[i], material);
                 if (first) v.somewhere = at[i];
                 v.low = first ? at[i] : glm::min(v.low, at[i]);
                 v.high = first ? at[i] : glm::max(v.high, at[i]);
@@ -57,26 +58,22 @@ std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const E
         }
     }
     std::map<const Expr*, QuantityValues, ByAge> result;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const QuantityValues& v = values[i];
-        if (!std::isfinite(v.longest))
-            throw Error(ErrorCode::bad_program,
-                        fmt::format("quantity '{}' of the material is not finite everywhere",
-                                    quantities[i]->name));
-        result.emplace(quantities[i], v);
-    }
+    for (std::size_t i = 0; i < at.size(); ++i) result.emplace(quantities[i], values[i]);
     return result;
 }
 
-}  // namespace
+AxisReport report_of(const PlanAxis& axis) {
+    return {axis.name, axis.argument(0), axis.argument(axis.size - 1), axis.logarithmic, axis.size};
+}
 
-CompiledModel compile_model(const Material& material, const Machine& machine,
-                            const glm::vec3& light, const glm::vec3& ambient) {
+/// The model for `machine`, within what `room` has.
+CompiledModel model_within(const Machine& room, const Material& material, const Machine& machine,
+                           const glm::vec3& light, const glm::vec3& ambient) {
     ExprBuilder builder;
-    ExprPtr value = name_quantities(parsed(material, builder), builder);
+    ExprPtr value = model_expression(material, builder);
     const TexelSource source(material);
     PlanTask task;
-    task.quantities = values_of(quantities_of(*value), source, task.most_tilt);
+    task.quantities = values_of(quantities_of(*value), source, material.name, task.most_tilt);
 
     // Numbers and colours that do not vary are constants of the program.
     std::vector<std::pair<const Expr*, glm::dvec3>> constants;
@@ -90,6 +87,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
         same.name = quantity->name;
         same.components = quantity->kind == ValueKind::scalar ? 1 : 3;
         same.constant = v.low;
+        same.definition = print_expression(*quantity->args.front());
         constant_layer.push_back(std::move(same));
     }
     value = with_constants(value, builder, constants);
@@ -108,7 +106,7 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     for (const ModelTerm& term : terms) {
         if (term.scalar) roots.push_back(term.scalar.get());
     }
-    const Machine room = machine.multipass ? with_room(machine) : machine;
+    require_bounds(roots, ranges, material.name);
     const TablePrice price = machine.stage_fetches ? TablePrice::fetch
                              : room.stage_fetches  ? TablePrice::passes
                                                    : TablePrice::none;
@@ -128,18 +126,97 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     compiled.program = std::move(scheduled.material);
     compiled.program.units = std::move(baked.units);
     compiled.layer = std::move(baked.layer);
+    for (std::size_t i = 0; i < plan.quantities.size(); ++i)
+        compiled.layer[i].definition = print_expression(*plan.quantities[i].expr->args.front());
     compiled.layer.insert(compiled.layer.end(), constant_layer.begin(), constant_layer.end());
     for (std::size_t i = 0; i < plan.tables.size(); ++i) {
         const PlanTable& t = plan.tables[i];
         TableReport& report = compiled.tables.emplace_back();
         report.function = t.function;
-        for (const PlanAxis& axis : t.axes) report.arguments.push_back(axis.name);
+        for (const PlanAxis& axis : t.axes) report.axes.push_back(report_of(axis));
         report.unit = scheduled.tables[i];
-        report.width = t.axes[0].size;
-        report.height = t.axes.size() == 2 ? t.axes[1].size : 1;
         report.interpolation = t.interpolation;
     }
+    compiled.needs = scheduled.needs;
     return compiled;
+}
+
+/// All that the model takes, whatever `machine` has. Without tables if combiners can do it; `first`
+/// is what was short there.
+ModelNeeds count_needs(const Shortage& first, const Material& material, const Machine& machine,
+                       const glm::vec3& light, const glm::vec3& ambient) {
+    Machine target = machine;
+    target.texture_units = with_room(machine).texture_units;
+    Machine room = target;
+    room.general_stages = std::numeric_limits<int>::max();
+    room.stage_fetches = with_room(machine).stage_fetches || first.needs.tables > 0;
+    room.texture_operations = TextureOperations::all;
+    ModelNeeds needs = first.needs;
+    for (const bool own : {machine.stage_constants || machine.multipass, true}) {
+        room.stage_constants = own;
+        try {
+            needs = model_within(room, material, target, light, ambient).needs;
+            needs.stage_constants = own && !machine.multipass;
+            return needs;
+        } catch (const Shortage& shortage) {
+            needs = shortage.needs;
+        }
+    }
+    return needs;
+}
+
+/// "ward", or the text of a material and where in it.
+std::string name_of(const Material& material, const Shortage& shortage) {
+    if (material.model != Model::text) return std::string(model_name(material.model));
+    std::string name = fmt::format("material '{}', model_text", material.name);
+    if (shortage.line > 0) name += fmt::format(":{}:{}", shortage.line, shortage.column);
+    return name;
+}
+
+/// What several passes would change.
+std::string with_passes(const Material& material, Machine machine, const ModelNeeds& needs,
+                        const glm::vec3& light, const glm::vec3& ambient) {
+    const Machine room = with_room(machine);
+    if (machine.multipass) {
+        if (needs.stages <= room.general_stages) return "";
+        return fmt::format("; several passes have {} together", room.general_stages);
+    }
+    machine.multipass = true;
+    try {
+        const std::size_t passes = compile_model(material, machine, light, ambient).passes.size();
+        return fmt::format("; in {} passes it fits (multipass)", passes);
+    } catch (const Error&) {
+        return "";
+    }
+}
+
+}  // namespace
+
+CompiledModel compile_model(const Material& material, const Machine& machine,
+                            const glm::vec3& light, const glm::vec3& ambient) {
+    const auto refuse = [&](const Shortage& first, const ModelNeeds& needs,
+                            const std::string& end) {
+        std::string missing = shortages(needs, machine);
+        if (missing.empty()) missing = first.what();
+        throw Error(
+            ErrorCode::bad_program,
+            fmt::format("{} on '{}': {}{}", name_of(material, first), machine.name, missing, end));
+    };
+    try {
+        CompiledModel model = model_within(machine.multipass ? with_room(machine) : machine,
+                                           material, machine, light, ambient);
+        if (!machine.multipass || has_room_for(machine, model.program)) return model;
+        try {
+            model.passes = passes_of(model.program, machine);
+        } catch (const Error& obstacle) {
+            refuse(Shortage(""), model.needs, fmt::format("; {}", obstacle.what()));
+        }
+        return model;
+    } catch (const Shortage& first) {
+        const ModelNeeds needs = count_needs(first, material, machine, light, ambient);
+        refuse(first, needs, with_passes(material, machine, needs, light, ambient));
+        throw;
+    }
 }
 
 const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& material,

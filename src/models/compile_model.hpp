@@ -1,21 +1,29 @@
 #pragma once
 
+#include <burnish/multipass.hpp>
 #include <burnish/scene.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "models/layer.hpp"
-#include "models/plan.hpp"
+#include "models/model_needs.hpp"
 
 namespace burnish {
 
+/// An axis of a table.
+struct AxisReport {
+    std::string argument;            ///< in the language of models
+    double first = 0.0, last = 0.0;  ///< the argument at the ends
+    bool logarithmic = false;        ///< texels lie at equal ratios, not at equal differences
+    int texels = 1;
+};
+
 /// A table of a compiled model, for reports.
 struct TableReport {
-    std::string function;                ///< in the language of models
-    std::vector<std::string> arguments;  ///< along its axes, likewise
+    std::string function;  ///< in the language of models
+    std::vector<AxisReport> axes;
     int unit = -1;
-    int width = 1, height = 1;
     double interpolation = 0.0;  ///< largest error between texels, in its own numbers
 };
 
@@ -24,13 +32,17 @@ struct CompiledModel {
     ProgramMaterial program;
     std::vector<LayerQuantity> layer;
     std::vector<TableReport> tables;
+    ModelNeeds needs;                 ///< in one pass
+    std::vector<ProgramPass> passes;  ///< of a machine that has to split it; else empty
 };
 
 /// Splits the model of `material` into what combiners compute and what becomes dependent textures,
-/// and finds ranges, scales, axes, table sizes, stages and units for `machine`.
+/// and finds ranges, scales, axes, table sizes, stages and units for `machine`, and the passes if
+/// it is one that splits programs.
 /// @param light  colour times intensity
-/// Throws Error{bad_program} that names the resource that the machine is short of, and by how much;
-/// for a text of the material with line and column.
+/// Throws Error{bad_program} that names the model, the machine and every resource that it is short
+/// of, with counts; for a text of the material with line and column where an expression is to
+/// blame.
 CompiledModel compile_model(const Material& material, const Machine& machine,
                             const glm::vec3& light, const glm::vec3& ambient);
 

@@ -18,6 +18,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLog2E = 1.4426950408889634;
 constexpr std::size_t kMostArguments = 2;
 
+/// Of a node; the lowest are kept. Built-in models have up to 26, long texts would have thousands.
+constexpr std::size_t kMostCuts = 64;
+
 /// In halves of a stage's portion: what a model is charged for.
 constexpr double kOperation = 1.0, kTable1d = 2.0, kTable2d = 3.5;
 
@@ -26,6 +29,9 @@ constexpr double kPasses = 6.0;
 
 /// And for interpolation that is off by the table's whole height.
 constexpr double kRoughness = 1000.0;
+
+/// Of a wide register, over its largest number: what arithmetic rounds to.
+constexpr double kCode = 0x1p-14;
 
 bool is_leaf(const Expr& e) {
     return e.op == ExprOp::constant || e.op == ExprOp::geometry || e.op == ExprOp::quantity ||
@@ -147,13 +153,15 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
                 }
                 merged = std::move(wider);
             }
-            found.insert(found.end(), merged.begin(), merged.end());
+            const std::size_t kept = std::min(merged.size(), kMostCuts);
+            found.insert(found.end(), merged.end() - static_cast<std::ptrdiff_t>(kept),
+                         merged.end());
         }
     }
     return m_cuts.emplace(&e, std::move(found)).first->second;
 }
 
-double Cover::table_cost(const Expr& e, const NodeSet& cut) {
+double Cover::cost_of_fetch(const Expr& e, const NodeSet& cut) {
     if (m_price == TablePrice::none || cut.empty() || cut.contains(&e)) return kInfinity;
     double cost = cut.size() == 1 ? kTable1d : kTable2d;
     if (m_price == TablePrice::passes) cost += kPasses;
@@ -163,8 +171,30 @@ double Cover::table_cost(const Expr& e, const NodeSet& cut) {
         of_pixel |= arg->binding == Binding::pixel;
         cost += best(*arg).cost;
     }
-    if (!of_pixel) return kInfinity;
-    return cost + kRoughness * table_domain(e, {cut.begin(), cut.end()}, m_ranges, m_numbers).error;
+    return of_pixel ? cost : kInfinity;
+}
+
+Cover::Way Cover::looked_up(const Expr& e, const NodeSet& cut, double cost) {
+    Way way;
+    way.is_table = true;
+    way.cut.args.assign(cut.begin(), cut.end());
+    const TableDomain domain = table_domain(e, way.cut.args, m_ranges, m_numbers);
+    double error = domain.error;
+    for (std::size_t i = 0; i < way.cut.args.size(); ++i) {
+        const Expr& arg = *way.cut.args[i];
+        double off = best(arg).error;
+        if (m_numbers == NumberModel::wide && !is_leaf(arg)) {
+            const Interval& range = domain.arguments[i];
+            off += kCode * std::max(std::abs(range.low), std::abs(range.high));
+        }
+        if (off > 0.0) error += off * domain.slopes[i] / domain.height;
+    }
+    if (m_numbers == NumberModel::wide) error += kCode;
+    way.height = domain.height;
+    way.error = error * domain.height;
+    way.cost = cost + kRoughness * error;
+    if (std::isnan(way.cost)) way.cost = kInfinity;
+    return way;
 }
 
 const Cover::Way& Cover::best(const Expr& e) {
@@ -201,7 +231,14 @@ const Cover::Way& Cover::best(const Expr& e) {
                 way.cost = arg(0) + arg(1);
             break;
         case ExprOp::minimum:
-            if (is_constant(0) || is_constant(1)) way.cost = arg(0) + arg(1) + kOperation;
+            if (is_constant(0) || is_constant(1)) {
+                const Way& below = best(*e.args[is_constant(0) ? 1 : 0]);
+                const double bound = e.args[is_constant(0) ? 0 : 1]->value.x;
+                way.cost = arg(0) + arg(1) + kOperation;
+                // What is a small error of a high function is a large one of what is left of it.
+                if (below.is_table && bound > 0.0 && bound < below.height)
+                    way.cost += kRoughness * below.error * (1.0 / bound - 1.0 / below.height);
+            }
             break;
         case ExprOp::power:
             if (is_constant(1) && squarings(e.args[1]->value.x) > 0)
@@ -211,20 +248,22 @@ const Cover::Way& Cover::best(const Expr& e) {
             break;
     }
     const bool hard = way.cost == kInfinity;
-    for (const auto& cut : cuts(e)) {
-        // Of equal cuts the lowest, which leaves most to the table.
-        const double cost = table_cost(e, cut);
-        if (cost > way.cost || (cost == way.cost && !way.is_table) || cost == kInfinity) continue;
-        way.cost = cost;
-        way.is_table = true;
-        way.cut.args.assign(cut.begin(), cut.end());
+    // From the lowest cut on, which of equal ones leaves most to the table; and what is too dear
+    // without its errors is not looked at.
+    const std::vector<NodeSet>& all = cuts(e);
+    for (auto cut = all.rbegin(); cut != all.rend(); ++cut) {
+        const double cost = cost_of_fetch(e, *cut);
+        if (!(cost < way.cost)) continue;
+        const Way table = looked_up(e, *cut, cost);
+        if (table.cost < way.cost) way = table;
     }
     // What is computed is as good as what is looked up, or better: a tie is the combiners'.
     if (hard && way.cost == kInfinity && m_price != TablePrice::none) {
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("{}:{}: a table that has no bound: expected arguments that stay "
-                                "finite, as with max(1/32, ...)",
-                                e.line, e.column));
+        throw Error(
+            ErrorCode::bad_program,
+            fmt::format("model_text:{}:{}: a table that has no bound: expected arguments that stay "
+                        "finite, as with max(1/32, ...)",
+                        e.line, e.column));
     }
     return m_best.emplace(&e, std::move(way)).first->second;
 }

@@ -55,13 +55,18 @@ class Cover {
   private:
     struct Way {
         double cost = 0.0;
+        /// Of a table: how far off it is, what its arguments are off included, and how high.
+        double error = 0.0, height = 0.0;
         bool is_table = false;
         TableCut cut;
     };
     const Way& best(const Expr& e);
     const std::vector<NodeSet>& cuts(const Expr& e);
     void choose(const Expr& e);
-    double table_cost(const Expr& e, const NodeSet& cut);
+    /// Without its errors, what a fetch by a cut costs: infinite where it cannot be had.
+    double cost_of_fetch(const Expr& e, const NodeSet& cut);
+    /// How `e` is looked up by a cut.
+    Way looked_up(const Expr& e, const NodeSet& cut, double cost);
     [[nodiscard]] bool bounded(const Expr& e);
 
     Ranges& m_ranges;

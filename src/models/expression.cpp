@@ -254,7 +254,7 @@ glm::dvec3 computed(ExprOp op, const glm::dvec3& a, const glm::dvec3& b) {
         case ExprOp::power:
             return glm::dvec3(power_of(a.x, b.x));
         case ExprOp::square_root:
-            return glm::dvec3(std::sqrt(a.x));
+            return glm::dvec3(std::sqrt(std::max(a.x, 0.0)));
         case ExprOp::exponential:
             return glm::dvec3(exponential_of(a.x));
         case ExprOp::minimum:
@@ -298,41 +298,96 @@ void Tape::run(const glm::dvec3* inputs, glm::dvec3* roots) {
     for (const std::size_t root : m_roots) *roots++ = m_values[root];
 }
 
-std::string print_expression(const Expr& e) {
-    const auto arg = [&](std::size_t i) { return print_expression(*e.args[i]); };
-    const auto binary = [&](const char* op) { return fmt::format("({}{}{})", arg(0), op, arg(1)); };
-    const auto call = [&](const char* name) {
-        return e.args.size() == 1 ? fmt::format("{}({})", name, arg(0))
-                                  : fmt::format("{}({}, {})", name, arg(0), arg(1));
-    };
-    switch (e.op) {
-        case ExprOp::constant:
-            if (e.kind == ValueKind::scalar) return fmt::format("{:.6g}", e.value.x);
-            return fmt::format("({:.6g}, {:.6g}, {:.6g})", e.value.x, e.value.y, e.value.z);
-        case ExprOp::add:
-            if (is_negation(*e.args[1]))
-                return fmt::format("({} - {})", arg(0), print_expression(*e.args[1]->args[1]));
-            return binary(" + ");
-        case ExprOp::multiply:
-            if (is_negation(e)) return fmt::format("-{}", arg(1));
-            return e.args[0] == e.args[1] ? fmt::format("{}^2", arg(0)) : binary(" * ");
-        case ExprOp::divide:
-            return binary(" / ");
-        case ExprOp::power:
-            return binary("^");
-        case ExprOp::dot:
-            return call("dot");
-        case ExprOp::square_root:
-            return call("sqrt");
-        case ExprOp::exponential:
-            return call("exp");
-        case ExprOp::minimum:
-            return call("min");
-        case ExprOp::maximum:
-            return call("max");
-        default:
-            return e.name;
+namespace {
+
+/// Writes expressions. What is shared is written again, so that short texts may print long.
+class Printer {
+  public:
+    void print(const Expr& e) {
+        constexpr std::size_t kLongest = 2000;
+        if (m_text.size() > kLongest) {
+            m_text += "...";
+            return;
+        }
+        switch (e.op) {
+            case ExprOp::constant:
+                m_text +=
+                    e.kind == ValueKind::scalar
+                        ? fmt::format("{:.6g}", e.value.x)
+                        : fmt::format("({:.6g}, {:.6g}, {:.6g})", e.value.x, e.value.y, e.value.z);
+                return;
+            case ExprOp::add:
+                if (is_negation(*e.args[1])) return binary(*e.args[0], " - ", *e.args[1]->args[1]);
+                return binary(*e.args[0], " + ", *e.args[1]);
+            case ExprOp::multiply:
+                if (is_negation(e)) {
+                    m_text += '-';
+                    return print(*e.args[1]);
+                }
+                if (e.args[0] != e.args[1]) return binary(*e.args[0], " * ", *e.args[1]);
+                print_base(*e.args[0]);
+                m_text += "^2";
+                return;
+            case ExprOp::divide:
+                return binary(*e.args[0], " / ", *e.args[1]);
+            case ExprOp::power:
+                m_text += '(';
+                print_base(*e.args[0]);
+                m_text += '^';
+                print(*e.args[1]);
+                m_text += ')';
+                return;
+            case ExprOp::dot:
+                return call("dot", e);
+            case ExprOp::square_root:
+                return call("sqrt", e);
+            case ExprOp::exponential:
+                return call("exp", e);
+            case ExprOp::minimum:
+                return call("min", e);
+            case ExprOp::maximum:
+                return call("max", e);
+            default:
+                m_text += e.name;
+        }
     }
+    [[nodiscard]] std::string text() && { return std::move(m_text); }
+
+  private:
+    /// Signs and squares bind less than a power that is taken of them.
+    void print_base(const Expr& e) {
+        const bool is_square = e.op == ExprOp::multiply && e.args[0] == e.args[1];
+        const bool is_negative = e.op == ExprOp::constant && e.value.x < 0.0;
+        const bool in_braces = is_negation(e) || is_square || is_negative;
+        if (in_braces) m_text += '(';
+        print(e);
+        if (in_braces) m_text += ')';
+    }
+    void binary(const Expr& a, std::string_view op, const Expr& b) {
+        m_text += '(';
+        print(a);
+        m_text += op;
+        print(b);
+        m_text += ')';
+    }
+    void call(std::string_view name, const Expr& e) {
+        m_text += name;
+        for (std::size_t i = 0; i < e.args.size(); ++i) {
+            m_text += i == 0 ? "(" : ", ";
+            print(*e.args[i]);
+        }
+        m_text += ')';
+    }
+
+    std::string m_text;
+};
+
+}  // namespace
+
+std::string print_expression(const Expr& expr) {
+    Printer printer;
+    printer.print(expr);
+    return std::move(printer).text();
 }
 
 bool is_number(const Expr& expr, double value) {

@@ -114,7 +114,8 @@ class Tape {
     std::vector<std::size_t> m_roots;
 };
 
-/// In the language of models; quantities by their names.
+/// In the language of models; quantities by their names, numbers with six digits. "..." stands for
+/// what is left beyond some 2000 characters.
 std::string print_expression(const Expr& expr);
 
 /// Whether `expr` is the scalar constant `value`.

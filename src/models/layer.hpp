@@ -12,9 +12,10 @@ namespace burnish {
 /// parameter stage. Whoever filters, filters this.
 struct LayerQuantity {
     std::string name;
-    int components = 1;  ///< 1: a scalar, 3: a vector or a colour
-    TexturePtr texture;  ///< null: the same everywhere
-    int channel = 0;     ///< the first one in the texture
+    std::string definition;  ///< in the language of models, from the material's parameters
+    int components = 1;      ///< 1: a scalar, 3: a vector or a colour
+    TexturePtr texture;      ///< null: the same everywhere
+    int channel = 0;         ///< the first one in the texture
     /// value = scale * x + offset, 2 to that power if `logarithmic`, for x the filtered code over
     /// the format's largest, 255 or 65535.
     glm::dvec3 scale{1.0}, offset{0.0};

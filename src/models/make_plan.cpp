@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/dmath.hpp"
+#include "models/model_needs.hpp"
 #include "models/table_domain.hpp"
 
 namespace burnish {
@@ -52,6 +53,11 @@ double largest(const glm::dvec3& v) {
 bool is_half_vector(const Expr& e) {
     return e.op == ExprOp::geometry && e.name == "h";
 }
+
+/// Interpolation as good as texels are, of a table's height.
+constexpr double kFine = 0x1p-15;
+/// Values of the other argument at which a table is looked at.
+constexpr int kOthers = 33;
 
 constexpr double kAll = std::numeric_limits<double>::infinity();
 
@@ -108,12 +114,14 @@ class Planner {
                 } else if (e.args[0]->op == ExprOp::constant) {
                     demand(*e.args[1], reach / std::abs(e.args[0]->value.x));
                 } else {
-                    for (const ExprPtr& arg : e.args) demand(*arg, kAll);
+                    // What the other factor makes larger is wanted less far.
+                    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+                        demand(*e.args[i], low(1 - i) > 0.0 ? reach / low(1 - i) : kAll);
                 }
                 return;
             case ExprOp::maximum:
                 for (const ExprPtr& arg : e.args) {
-                    if (is_one_minus(*arg)) {
+                    if (m_cover.table(*arg) == nullptr && is_one_minus(*arg)) {
                         demand(*arg->args[1]->args[1], 1.0);
                     } else {
                         demand(*arg, reach);
@@ -334,9 +342,11 @@ class Planner {
             case ExprOp::add:
                 return addition(e);
             case ExprOp::maximum:
+                if (!is_number(*e.args[0], 0.0) && !is_number(*e.args[1], 0.0)) needs_table(e);
                 return positive(is_number(*e.args[0], 0.0) ? *e.args[1] : *e.args[0]);
             case ExprOp::minimum: {
                 const bool first = e.args[0]->op == ExprOp::constant;
+                if (!first && e.args[1]->op != ExprOp::constant) needs_table(e);
                 const Expr& bound = first ? *e.args[0] : *e.args[1];
                 return in_units(lower(first ? *e.args[1] : *e.args[0]), bound.value.x);
             }
@@ -355,9 +365,10 @@ class Planner {
         }
     }
     [[noreturn]] static void needs_table(const Expr& e) {
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("{}:{}: needs a table, the machine has no dependent fetch", e.line,
-                                e.column));
+        Shortage shortage(fmt::format("{} needs a table", print_expression(e)), {.tables = 1});
+        shortage.line = e.line;
+        shortage.column = e.column;
+        throw shortage;
     }
 
     Operand scalar_quantity(const Expr& e) {
@@ -588,7 +599,8 @@ class Planner {
         return a;
     }
 
-    /// Doubles the axis that interpolates worse until both are as good as the numbers are.
+    /// As many texels as it takes until interpolation is as good as the numbers are, or as there
+    /// can be, where they do most.
     void fill(PlanTable& t, const Expr& e, const std::vector<const Expr*>& args) {
         const bool wide = m_task.numbers == NumberModel::wide;
         Tape tape({&e}, args);
@@ -600,49 +612,53 @@ class Planner {
             glm::dvec3 at[2]{glm::dvec3(x), glm::dvec3(y)}, result;
             tape.run(at, &result);
             if (!(std::abs(result.x) < 1e6))
-                throw Error(ErrorCode::bad_program,
-                            fmt::format("{}:{}: a table that has no bound: {} is {} at {}{}, "
-                                        "expected less than 10^6, as with max(1/32, ...)",
-                                        e.line, e.column, print_expression(e), result.x, x,
-                                        args.size() == 2 ? fmt::format(", {}", y) : ""));
+                throw Error(
+                    ErrorCode::bad_program,
+                    fmt::format("model_text:{}:{}: a table that has no bound: {} is {} at {}{}, "
+                                "expected less than 10^6, as with max(1/32, ...)",
+                                e.line, e.column, print_expression(e), result.x, x,
+                                args.size() == 2 ? fmt::format(", {}", y) : ""));
             return result.x;
         };
         const bool is_2d = args.size() == 2;
-        for (PlanAxis& a : t.axes) a.size = wide ? (is_2d ? 64 : 256) : 256;
-        const PlanAxis none;
-        const PlanAxis& second = is_2d ? t.axes[1] : none;
-        for (;;) {
-            double error[2] = {0.0, 0.0}, peak = 0.0;
-            for (int k = 0; k < (is_2d ? 2 : 1); ++k) {
-                const auto own = static_cast<std::size_t>(k);
-                const PlanAxis& a = t.axes[own];
-                const PlanAxis& o = k == 0 ? second : t.axes[0];
-                const int others = std::min(o.size, 65);
-                for (int i = 0; i < others; ++i) {
-                    const double other =
-                        o.argument(others == 1 ? 0 : i * (o.size - 1) / (others - 1));
-                    const auto at = [&](double x) {
-                        return k == 0 ? value(x, other) : value(other, x);
-                    };
-                    for (int j = 0; j + 1 < a.size; ++j) {
-                        const double low = a.argument(j), high = a.argument(j + 1);
-                        const double middle = a.between(j);
-                        const double f0 = at(low), f1 = at(high);
-                        peak = std::max({peak, std::abs(f0), std::abs(f1)});
-                        error[k] = std::max(error[k], std::abs(at(middle) - 0.5 * (f0 + f1)));
-                    }
+        double peak = 1e-9;
+        // Halfway between texels, of an axis of `size` texels, at some values of the other.
+        const auto error_along = [&](std::size_t own, int size) {
+            PlanAxis a = t.axes[own], other = is_2d ? t.axes[1 - own] : PlanAxis();
+            a.size = size;
+            other.size = is_2d ? kOthers : 1;
+            double error = 0.0;
+            for (int i = 0; i < other.size; ++i) {
+                const double fixed = other.argument(i);
+                const auto at = [&](double x) {
+                    return own == 0 ? value(x, fixed) : value(fixed, x);
+                };
+                double left = at(a.argument(0));
+                for (int j = 0; j + 1 < size; ++j) {
+                    const double right = at(a.argument(j + 1));
+                    peak = std::max({peak, std::abs(left), std::abs(right)});
+                    error = std::max(error, std::abs(at(a.between(j)) - 0.5 * (left + right)));
+                    left = right;
                 }
             }
-            t.interpolation = std::max(error[0], error[1]);
-            t.unit = std::max(peak, 1e-9);
-            if (!wide) break;
-            const double fine = 0x1p-15 * t.unit;
-            const std::size_t worse = is_2d && error[1] > error[0] ? 1 : 0;
-            const int texels = t.axes[0].size * (is_2d ? t.axes[1].size : 1);
-            if (std::max(error[0], error[1]) <= fine) break;
-            if (texels >= (is_2d ? 1 << 18 : 1 << 12) || t.axes[worse].size >= 4096) break;
-            t.axes[worse].size *= 2;
+            return error;
+        };
+        for (PlanAxis& a : t.axes) a.size = 256;
+        if (!wide) {
+            for (std::size_t own = 0; own < t.axes.size(); ++own)
+                t.interpolation = std::max(t.interpolation, error_along(own, 256));
+        } else if (!is_2d) {
+            for (int size = 256; size <= kFinest1d; size *= 2) {
+                t.axes[0].size = size;
+                t.interpolation = error_along(0, size);
+                if (t.interpolation <= kFine * peak) break;
+            }
+        } else {
+            choose_sizes(t, error_along, peak);
         }
+        t.unit = peak;
+        const PlanAxis none;
+        const PlanAxis& second = is_2d ? t.axes[1] : none;
         for (int y = 0; y < second.size; ++y) {
             for (int x = 0; x < t.axes[0].size; ++x) {
                 const double f = value(t.axes[0].argument(x), is_2d ? second.argument(y) : 0.0);
@@ -650,12 +666,34 @@ class Planner {
                 t.coded |= f < 0.0;
             }
         }
-        const double peak =
+        const double highest =
             std::abs(*std::max_element(t.values.begin(), t.values.end(), [](double a, double b) {
                 return std::abs(a) < std::abs(b);
             }));
-        for (double& v : t.values) v /= peak;
-        t.unit *= peak;
+        for (double& v : t.values) v /= highest;
+        t.unit *= highest;
+    }
+
+    /// Of the shapes that are fine enough the smallest; if none is, the best.
+    template <class ErrorAlong>
+    static void choose_sizes(PlanTable& t, ErrorAlong&& error_along, const double& peak) {
+        std::map<int, std::array<double, 2>> errors;
+        for (int size = kFinest2d / kFinest1d; size <= kFinest1d; size *= 2)
+            errors[size] = {error_along(std::size_t{0}, size), error_along(std::size_t{1}, size)};
+        const auto score = [&](int x, int y) {
+            const double error = std::max(errors[x][0], errors[y][1]);
+            return std::pair(std::max(error, kFine * peak), x * y);
+        };
+        std::pair<int, int> best{64, 64};
+        for (const auto& [x, unused_x] : errors) {
+            for (const auto& [y, unused_y] : errors) {
+                if (x * y <= kFinest2d && score(x, y) < score(best.first, best.second))
+                    best = {x, y};
+            }
+        }
+        t.axes[0].size = best.first;
+        t.axes[1].size = best.second;
+        t.interpolation = std::max(errors[best.first][0], errors[best.second][1]);
     }
 
     // --- light
@@ -711,13 +749,22 @@ class Planner {
     void finish() {
         glm::dvec3 base = m_task.ambient;
         std::vector<Product> products;
+        std::vector<const ModelTerm*> of_vertices;
         for (const ModelTerm& term : *m_task.terms) {
-            const glm::dvec3 light = m_task.light * term.factor;
-            if (light == glm::dvec3(0.0)) continue;
+            if (m_task.light * term.factor == glm::dvec3(0.0)) continue;
             if (comes_with_vertices(term)) {
-                m_plan.lit_tint += light;
+                of_vertices.push_back(&term);
             } else {
                 products.push_back(lit(term));
+            }
+        }
+        // Their colour is the one that a second vector takes.
+        const bool has_place = vector_inputs() < 2;
+        for (const ModelTerm* term : of_vertices) {
+            if (has_place) {
+                m_plan.lit_tint += m_task.light * term->factor;
+            } else {
+                products.push_back(lit(*term));
             }
         }
         const auto last = std::find_if(products.begin(), products.end(),
@@ -743,6 +790,12 @@ class Planner {
             products.push_back({constant_base, one(), 1.0});
         }
         if (!products.empty()) m_plan.final.d = summed(products);
+    }
+
+    [[nodiscard]] std::ptrdiff_t vector_inputs() const {
+        return std::count_if(m_plan.values.begin(), m_plan.values.end(), [](const PlanValue& v) {
+            return v.op == PlanOp::input && v.kind == ValueKind::vector;
+        });
     }
 
     bool comes_with_vertices(const ModelTerm& term) const {

@@ -30,7 +30,8 @@ struct PlanTask {
     bool scaled_half_vector = true;  ///< the interpolators may scale it: half vectors of the pixel
 };
 
-/// Throws Error{bad_program} for what no table can hold.
+/// Throws Error{bad_program} for what no table can hold, Shortage where there are none and one is
+/// needed.
 Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges);
 
 }  // namespace burnish

@@ -27,6 +27,13 @@ std::vector<std::string_view> model_names() {
     return names;
 }
 
+std::string_view model_name(Model model) {
+    for (const auto& [name, known] : kModels) {
+        if (known == model) return name;
+    }
+    return {};
+}
+
 std::optional<Model> model_named(std::string_view name) {
     // The talk's own wording.
     if (name == "anisotropic-blinn-phong-modified") return Model::abp_modified;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "core/dmath.hpp"
@@ -14,9 +15,11 @@ namespace burnish {
 
 namespace {
 
-/// Deeper or longer texts are nobody's model.
+/// Deeper or longer texts are nobody's model: the longest of model_texts.cpp has 70 operations.
 constexpr int kDeepest = 100;
-constexpr std::size_t kMostOperations = 2000;
+constexpr std::size_t kMostOperations = 500;
+/// Factors of all summands, once products of sums are multiplied out.
+constexpr double kMostFactors = 500.0;
 
 struct Failure {
     TextError error;
@@ -35,10 +38,17 @@ struct Token {
     throw Failure{{at.line, at.column, std::move(message)}};
 }
 
+/// In quotes, the beginning of what is long.
+std::string quoted(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    if (text.size() <= kLongest) return fmt::format("'{}'", text);
+    return fmt::format("'{}...'", text.substr(0, kLongest));
+}
+
 std::string shown(const Token& token) {
     if (token.kind == TokenKind::end) return "the end";
     if (token.kind == TokenKind::end_of_statement) return "the end of the statement";
-    return fmt::format("'{}'", token.text);
+    return quoted(token.text);
 }
 
 bool starts_name(char c) {
@@ -81,7 +91,9 @@ class Lexer {
             const std::size_t length =
                 failure == std::errc::invalid_argument ? 1 : static_cast<std::size_t>(stop - first);
             token.text = m_text.substr(m_at, length);
-            if (failure != std::errc()) fail(token, fmt::format("'{}' is no number", token.text));
+            if (failure == std::errc::result_out_of_range)
+                fail(token, quoted(token.text) + ", expected a number that a double can hold");
+            if (failure != std::errc()) fail(token, quoted(token.text) + " is no number");
             m_at += length;
         } else if (std::string_view("+-*/^(),=").find(c) != std::string_view::npos) {
             token.kind = TokenKind::symbol;
@@ -125,6 +137,30 @@ std::string_view kind_name(ValueKind kind) {
     return "a colour";
 }
 
+/// How long a value gets when its products of colours are multiplied out.
+struct Length {
+    double summands = 1.0, factors = 1.0;
+};
+Length multiplied_out(const Expr& e, std::map<const Expr*, Length>& known) {
+    const auto at = known.find(&e);
+    if (at != known.end()) return at->second;
+    Length length;
+    if (e.binding == Binding::pixel && e.args.size() == 2) {
+        const Length a = multiplied_out(*e.args[0], known), b = multiplied_out(*e.args[1], known);
+        if (e.op == ExprOp::multiply)
+            length = {a.summands * b.summands, a.factors * b.summands + b.factors * a.summands};
+        if (e.op == ExprOp::add && e.kind == ValueKind::color)
+            length = {a.summands + b.summands, a.factors + b.factors};
+    }
+    known.emplace(&e, length);
+    return length;
+}
+
+bool is_finite_constant(const Expr& e) {
+    return e.op != ExprOp::constant ||
+           (std::isfinite(e.value.x) && std::isfinite(e.value.y) && std::isfinite(e.value.z));
+}
+
 class Parser {
   public:
     Parser(std::string_view text, ExprBuilder& builder) : m_lexer(text), m_builder(builder) {
@@ -155,6 +191,11 @@ class Parser {
         if (!value) fail(m_token, "no value: the last line is an expression without a name");
         if (value->kind == ValueKind::vector)
             fail(start, "the value is a vector, expected a colour or a number");
+        std::map<const Expr*, Length> lengths;  // looked up only
+        if (!(multiplied_out(*value, lengths).factors <= kMostFactors))
+            fail(start, fmt::format("the value multiplied out has more than {} factors, expected "
+                                    "fewer",
+                                    kMostFactors));
         return value;
     }
 
@@ -173,15 +214,36 @@ class Parser {
     }
     void count(const Token& at) {
         if (++m_operations > kMostOperations)
-            fail(at, fmt::format("more than {} operations", kMostOperations));
+            fail(at, fmt::format("more than {} operations, expected fewer", kMostOperations));
         m_builder.at(at.line, at.column);
+    }
+    /// `e`, which `op` made: numbers that the text says alone are finite.
+    static const ExprPtr& finite(const Token& op, const ExprPtr& e) {
+        const bool all = is_finite_constant(*e) &&
+                         std::all_of(e->args.begin(), e->args.end(),
+                                     [](const ExprPtr& arg) { return is_finite_constant(*arg); });
+        if (!all)
+            fail(op, fmt::format("'{}' of constants has no finite value, expected one", op.text));
+        return e;
+    }
+    /// Roots and powers of what is negative are 0; of a constant that is a mistake.
+    static void require_not_negative(const Token& at, const Expr& e) {
+        if (e.op == ExprOp::constant && e.value.x < 0.0)
+            fail(at, fmt::format("'{}' of the constant {}, expected one of at least 0", at.text,
+                                 e.value.x));
+    }
+    ExprPtr raised(const Token& op, const ExprPtr& base, const ExprPtr& exponent) {
+        const bool is_product =
+            is_number(*exponent, 1.0) || is_number(*exponent, 2.0) || is_number(*exponent, 4.0);
+        if (!is_product) require_not_negative(op, *base);
+        return finite(op, m_builder.power(base, exponent));
     }
 
     /// name = expression
     void define() {
         const Token name = m_token;
         if (m_names.contains(name.text) || name.text == "pi" || m_builder.leaf(name.text))
-            fail(name, fmt::format("'{}' has a value already, expected a new name", name.text));
+            fail(name, quoted(name.text) + " has a value already, expected a new name");
         advance();
         advance();
         ExprPtr value = sum();
@@ -200,7 +262,7 @@ class Parser {
             require_alike(op, e, right);
             count(op);
             if (op.text == "-") right = m_builder.negate(right);
-            e = m_builder.add(e, right);
+            e = finite(op, m_builder.add(e, right));
         }
         return e;
     }
@@ -216,13 +278,13 @@ class Parser {
                 require(op, right, ValueKind::scalar);
                 if (is_number(*right, 0.0))
                     fail(op, "division by a constant zero, expected another divisor");
-                e = m_builder.divide(e, right);
+                e = finite(op, m_builder.divide(e, right));
             } else {
                 if (e->kind != ValueKind::scalar && right->kind != ValueKind::scalar &&
                     (e->kind != right->kind || e->kind == ValueKind::vector))
                     fail(op, fmt::format("{} times {}, expected a number on one side",
                                          kind_name(e->kind), kind_name(right->kind)));
-                e = m_builder.multiply(e, right);
+                e = finite(op, m_builder.multiply(e, right));
             }
         }
         return e;
@@ -250,7 +312,7 @@ class Parser {
         require(op, base, ValueKind::scalar);
         require(op, exponent, ValueKind::scalar);
         count(op);
-        return m_builder.power(base, exponent);
+        return raised(op, base, exponent);
     }
 
     ExprPtr primary() {
@@ -282,8 +344,12 @@ class Parser {
         if (ExprPtr leaf = m_builder.leaf(at.text)) return leaf;
         std::vector<std::string_view> known = ExprBuilder::leaf_names();
         known.emplace_back("pi");
+        const std::size_t of_language = known.size();
         for (const auto& [name, value] : m_names) known.push_back(name);
-        fail(at, fmt::format("unknown name '{}', {}", at.text, expected_one_of(at.text, known)));
+        // Without a near one, the text's own names would make a long list.
+        if (nearest_name(at.text, known).empty()) known.resize(of_language);
+        fail(at,
+             fmt::format("unknown name {}, {}", quoted(at.text), expected_one_of(at.text, known)));
     }
 
     ExprPtr call(const Token& function) {
@@ -292,8 +358,8 @@ class Parser {
         const std::string_view name = function.text;
         const std::size_t expected = name == "clamp" ? 3 : name == "sqrt" || name == "exp" ? 1 : 2;
         if (std::find(std::begin(kFunctions), std::end(kFunctions), name) == std::end(kFunctions))
-            fail(function,
-                 fmt::format("unknown function '{}', {}", name, expected_one_of(name, kFunctions)));
+            fail(function, fmt::format("unknown function {}, {}", quoted(name),
+                                       expected_one_of(name, kFunctions)));
         advance();
         deeper(function);
         std::vector<ExprPtr> args{sum()};
@@ -313,16 +379,20 @@ class Parser {
         }
         count(function);
         if (name == "dot") return m_builder.dot(args[0], args[1]);
-        if (name == "sqrt") return m_builder.square_root(args[0]);
-        if (name == "pow") return m_builder.power(args[0], args[1]);
-        if (name == "exp") return m_builder.exponential(args[0]);
+        if (name == "sqrt") {
+            require_not_negative(function, *args[0]);
+            return m_builder.square_root(args[0]);
+        }
+        if (name == "pow") return raised(function, args[0], args[1]);
+        if (name == "exp") return finite(function, m_builder.exponential(args[0]));
         if (name == "min") return m_builder.minimum(args[0], args[1]);
         if (name == "max") return m_builder.maximum(args[0], args[1]);
         return m_builder.minimum(m_builder.maximum(args[0], args[1]), args[2]);
     }
 
     void deeper(const Token& at) {
-        if (++m_depth > kDeepest) fail(at, fmt::format("more than {} levels of nesting", kDeepest));
+        if (++m_depth > kDeepest)
+            fail(at, fmt::format("more than {} levels of nesting, expected fewer", kDeepest));
     }
     static void require(const Token& at, const ExprPtr& e, ValueKind kind) {
         if (e->kind != kind)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <burnish/error.hpp>
 #include <optional>
 
 namespace burnish {
@@ -21,9 +20,9 @@ struct Half {
     friend bool operator==(const Half&, const Half&) = default;
 };
 
-[[noreturn]] void short_of(const Machine& machine, std::string_view what, int needed, int have) {
-    throw Error(ErrorCode::bad_program,
-                fmt::format("needs {} {}, machine '{}' has {}", needed, what, machine.name, have));
+void require_room(const ModelNeeds& needs, const Machine& machine) {
+    const std::string missing = shortages(needs, machine);
+    if (!missing.empty()) throw Shortage(missing, needs);
 }
 
 /// const0 and const1, rgb and alpha, of one stage or of the whole program.
@@ -75,14 +74,17 @@ class Scheduler {
         m_ready.assign(count, false);
         m_uses.assign(count, 0);
         m_depth.assign(count, 0);
+        m_out.needs.tables = static_cast<int>(m_plan.tables.size());
+        m_out.needs.units = texture_units_of(m_plan);
         count_uses();
         place_inputs();
+        m_out.needs.third_vector = m_third_vector >= 0;
+        require_room(m_out.needs, m_machine);
         place_quantities();
         place_tables();
         while (!finished()) add_stage();
-        if (static_cast<int>(program().stages.size()) > m_machine.general_stages)
-            short_of(m_machine, "general stages", static_cast<int>(program().stages.size()),
-                     m_machine.general_stages);
+        m_out.needs.stages = static_cast<int>(program().stages.size());
+        require_room(m_out.needs, m_machine);
         finish();
         return std::move(m_out);
     }
@@ -208,8 +210,6 @@ class Scheduler {
 
     void place_tables() {
         for (std::size_t i = 0; i < m_plan.tables.size(); ++i) m_out.tables.push_back(m_units++);
-        if (m_units > m_machine.texture_units)
-            short_of(m_machine, "texture units", m_units, m_machine.texture_units);
         m_reserved.assign(kRegisters, false);
         for (const int unit : m_out.tables) m_reserved[static_cast<std::size_t>(tex(unit))] = true;
     }
@@ -254,7 +254,7 @@ class Scheduler {
                 any |= done;
             }
         }
-        if (!any) throw Error(ErrorCode::bad_program, "no registers or constants are left");
+        if (!any) throw Shortage("no registers or constants are left", m_out.needs);
         for (const auto& [v, half] : m_written) occupy(v, half);
         if (m_machine.stage_constants) {
             if (m_constants.used(0)) m_stage.const0 = m_constants.color(0);
@@ -435,9 +435,7 @@ class Scheduler {
             return is_one ? combine::one() : combine::raw(Register::zero);
         }
         const std::optional<Input> input = operand(from, false, m_constants);
-        if (!input)
-            throw Error(ErrorCode::bad_program,
-                        fmt::format("needs more constants than machine '{}' has", m_machine.name));
+        if (!input) throw Shortage("no constants are left", m_out.needs);
         Input raw = *input;
         if (raw.mapping == Mapping::signed_identity) raw.mapping = Mapping::unsigned_identity;
         return raw;
@@ -464,6 +462,16 @@ class Scheduler {
 };
 
 }  // namespace
+
+int texture_units_of(const Plan& plan) {
+    int vectors = 0, colors = 0, numbers = 0;
+    for (const PlanValue& v : plan.values)
+        vectors += v.op == PlanOp::input && v.kind == ValueKind::vector ? 1 : 0;
+    for (const PlanQuantity& q : plan.quantities)
+        (q.kind == ValueKind::scalar ? numbers : colors) += 1;
+    const int layer = colors + (std::max(numbers - colors, 0) + 1) / 2;
+    return layer + (vectors == 3 ? 1 : 0) + static_cast<int>(plan.tables.size());
+}
 
 Schedule schedule(const Plan& plan, const Machine& machine, const Machine& target) {
     return Scheduler(plan, machine, target).make();

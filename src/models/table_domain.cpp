@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/dmath.hpp"
 
@@ -73,33 +74,59 @@ bool same_below_zero(Function& f, const std::vector<Interval>& ranges, std::size
     return true;
 }
 
-/// Largest error halfway between texels, near both ends and in between.
-double interpolation_error(Function& f, const std::vector<const Expr*>& args,
-                           const std::vector<Interval>& ranges) {
-    double error = 0.0, peak = 1e-300;
-    for (std::size_t own = 0; own < args.size(); ++own) {
-        const int size = args.size() == 1 ? kFinest1d : kFinest2d;
-        const Interval& range = ranges[own];
-        const bool logarithmic = is_logarithmic(*args[own], range);
-        const auto at = [&](double texel) {
-            const double x = texel / (size - 1);
-            if (!logarithmic) return range.low + (range.high - range.low) * x;
-            return range.low * dmath::exp2(x * dmath::log2(range.high / range.low));
-        };
-        for (int i = 0; i < f.others(); ++i) {
-            const double other = other_value(ranges, own, i);
-            for (int k = 0; k < 64; ++k) {
-                // Neighbours 0, 1, 2, 3 .. from both ends, then further apart.
-                const double from_end = k < 16 ? k / 2 : (k - 15) * (size - 2) / 100.0;
-                const double texel =
-                    std::floor(k % 2 == 0 ? from_end : size - 2 - std::floor(from_end));
-                const double a = f(own, at(texel), other), b = f(own, at(texel + 1.0), other);
-                error = std::max(error, std::abs(f(own, at(texel + 0.5), other) - 0.5 * (a + b)));
-                peak = std::max({peak, std::abs(a), std::abs(b)});
-            }
+/// How a function looks from texel to texel along one of its arguments.
+struct Roughness {
+    double error = 0.0;  ///< largest one halfway between texels
+    double slope = 0.0, height = 0.0;
+};
+
+/// Looks near both ends and in between.
+Roughness roughness(Function& f, const std::vector<const Expr*>& args,
+                    const std::vector<Interval>& ranges, std::size_t own, int size) {
+    const Interval& range = ranges[own];
+    const bool logarithmic = is_logarithmic(*args[own], range);
+    const auto at = [&](double texel) {
+        const double x = texel / (size - 1);
+        if (!logarithmic) return range.low + (range.high - range.low) * x;
+        return range.low * dmath::exp2(x * dmath::log2(range.high / range.low));
+    };
+    Roughness seen;
+    for (int i = 0; i < f.others(); ++i) {
+        const double other = other_value(ranges, own, i);
+        for (int k = 0; k < 64; ++k) {
+            // Neighbours 0, 1, 2, 3 .. from both ends, then further apart.
+            const double from_end = k < 16 ? k / 2 : (k - 15) * (size - 2) / 100.0;
+            const double texel =
+                std::floor(k % 2 == 0 ? from_end : size - 2 - std::floor(from_end));
+            const double x = at(texel), y = at(texel + 1.0);
+            const double a = f(own, x, other), b = f(own, y, other);
+            seen.error =
+                std::max(seen.error, std::abs(f(own, at(texel + 0.5), other) - 0.5 * (a + b)));
+            seen.height = std::max({seen.height, std::abs(a), std::abs(b)});
+            if (y > x) seen.slope = std::max(seen.slope, std::abs(b - a) / (y - x));
         }
     }
-    return std::isfinite(error / peak) ? error / peak : 1e3;
+    return seen;
+}
+
+/// Of the best shape that the finest table can have.
+void look_between_texels(Function& f, const std::vector<const Expr*>& args, TableDomain& domain) {
+    domain.slopes.assign(args.size(), 0.0);
+    const auto look = [&](std::size_t own, int size) {
+        const Roughness seen = roughness(f, args, domain.arguments, own, size);
+        domain.slopes[own] = std::max(domain.slopes[own], seen.slope);
+        domain.height = std::max(domain.height, seen.height);
+        return seen.error;
+    };
+    double error = std::numeric_limits<double>::infinity();
+    if (args.size() == 1) {
+        error = look(0, kFinest1d);
+    } else {
+        for (const int size : {kFinest1d, 512, kFinest2d / kFinest1d})
+            error = std::min(error, std::max(look(0, size), look(1, kFinest2d / size)));
+    }
+    const double relative = error / std::max(domain.height, 1e-300);
+    domain.error = std::isfinite(relative) ? relative : 1e3;
 }
 
 }  // namespace
@@ -121,7 +148,7 @@ TableDomain table_domain(const Expr& function, const std::vector<const Expr*>& a
             range.low = 0.0;
         if (range.low >= 0.0) range.high = resting(f, domain.arguments, i, rest);
     }
-    domain.error = interpolation_error(f, args, domain.arguments);
+    look_between_texels(f, args, domain);
     return domain;
 }
 

@@ -116,7 +116,9 @@ ExprPtr name_quantities(const ExprPtr& value, ExprBuilder& builder) {
     const std::function<ExprPtr(const ExprPtr&)> quantity = [&](const ExprPtr& e) -> ExprPtr {
         if (e->op == ExprOp::quantity) return e;
         if (e->op == ExprOp::parameter) return builder.quantity(e->name, e);
-        if (e->op == ExprOp::multiply && e->args[0]->op == ExprOp::constant)
+        // Constants stand outside, but for vectors, which dot products take as they are.
+        if (e->op == ExprOp::multiply && e->args[0]->op == ExprOp::constant &&
+            e->kind != ValueKind::vector)
             return builder.multiply(e->args[0], quantity(e->args[1]));
         const auto at = named.find(e.get());
         if (at != named.end()) return at->second;

@@ -29,8 +29,16 @@ std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
 
 std::shared_ptr<const SurfaceSampler> surface_of_material(
     const Material& material, const std::optional<Machine>& layer_machine) {
+    if (material.model == Model::text) return nullptr;
     if (!layer_machine) return exact_surface(material);
     return layer_surface(material, material_layer(material, *layer_machine));
+}
+
+std::shared_ptr<const TextModel> text_of_material(const Material& material,
+                                                  const std::optional<Machine>& layer_machine) {
+    if (material.model != Model::text) return nullptr;
+    if (!layer_machine) return std::make_shared<TextModel>(material);
+    return std::make_shared<TextModel>(material, material_layer(material, *layer_machine));
 }
 
 DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine) {
@@ -39,7 +47,6 @@ DoubleObject double_object(const Object& object, const std::optional<Machine>& l
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
     if (mesh == nullptr) refuse(material, "vertices instead of a mesh");
     if (material.program) refuse(material, "a program");
-    if (material.model == Model::text) refuse(material, "a model given as text");
     if (material.alpha_test.pass != Comparison::always) refuse(material, "an alpha test");
     if (object.raster.blend) refuse(material, "blending");
     return {double_vertices(*mesh),
@@ -47,6 +54,7 @@ DoubleObject double_object(const Object& object, const std::optional<Machine>& l
             glm::dmat4(object.world_from_object),
             material.model,
             surface_of_material(material, layer_machine),
+            text_of_material(material, layer_machine),
             object.raster.depth_test,
             object.raster.depth_write,
             object.raster.cull};
@@ -60,6 +68,7 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
     out.view = make_view(scene.camera, width, height);
     out.viewer = scene.machine.viewer;
     out.tangent_frames = scene.machine.tangent_frames;
+    out.normalise_half_vector = scene.machine.normalise_half_vector;
     out.ambient = glm::dvec3(scene.ambient);
     out.background = glm::dvec4(scene.background);
     for (const Light& light : scene.lights) {

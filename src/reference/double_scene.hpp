@@ -9,6 +9,7 @@
 
 #include "geometry/camera.hpp"
 #include "reference/surface_sampler.hpp"
+#include "reference/text_model.hpp"
 
 /// The double-precision renderer: reflectance models evaluated as formulas at every sample, for
 /// machines to be measured against. It shares scenes and the material layer with them, and no code
@@ -33,7 +34,8 @@ struct DoubleObject {
     std::vector<std::uint32_t> indices;  ///< three per triangle
     glm::dmat4 world_from_object;
     Model model;
-    std::shared_ptr<const SurfaceSampler> surface;
+    std::shared_ptr<const SurfaceSampler> surface;  ///< null for Model::text
+    std::shared_ptr<const TextModel> text;          ///< of Model::text
     DepthTest depth_test;
     bool depth_write;
     Cull cull;
@@ -43,6 +45,7 @@ struct DoubleScene {
     View view;
     Viewer viewer = Viewer::local;
     TangentFrames tangent_frames = TangentFrames::mikktspace;
+    bool normalise_half_vector = true;  ///< else it is (l + v) / 2
     std::vector<DoubleLight> lights;
     glm::dvec3 ambient;
     glm::dvec4 background;

@@ -36,6 +36,7 @@ class ObjectShader {
         : m_object(object),
           m_ambient(scene.ambient),
           m_tangent_frames(scene.tangent_frames),
+          m_normalises_half_vector(scene.normalise_half_vector),
           m_eye_w(scene.viewer == Viewer::local ? 1.0 : 0.0),
           m_lights(scene.lights) {
         const double determinant = glm::determinant(object.world_from_object);
@@ -57,15 +58,19 @@ class ObjectShader {
             point.corner[i] = &m_object.vertices[m_object.indices[std::size_t{3} * number + i]];
         const TangentFrame frame = tangent_frame(point, m_tangent_frames);
         const glm::dvec3 position = point.mean(&DoubleVertex::position);
-        const Surface surface = m_object.surface->at(point.mean(&DoubleVertex::uv));
+        const glm::dvec2 uv = point.mean(&DoubleVertex::uv);
+        const TextModel* text = m_object.text.get();
+        const TextSurface own = text != nullptr ? text->at(uv) : TextSurface{};
+        const Surface surface = text == nullptr ? m_object.surface->at(uv) : Surface{};
         const glm::dvec3 v = normalised(m_eye - position * m_eye_w);
         glm::dvec3 sum = m_ambient;
         for (const DoubleLight& light : m_lights) {
             const glm::dvec3 l = normalised(light.position - position * light.position_w);
-            const glm::dvec3 h = normalised(l + v);
+            const glm::dvec3 h = m_normalises_half_vector ? normalised(l + v) : (l + v) * 0.5;
             const Directions to{frame.components(l), frame.components(v), frame.components(h),
                                 glm::dot(h, l)};
-            sum += light.color * reflected(m_object.model, surface, to);
+            sum += light.color * (text != nullptr ? text->reflected(own, to)
+                                                  : reflected(m_object.model, surface, to));
         }
         return sum;
     }
@@ -76,6 +81,7 @@ class ObjectShader {
     const DoubleObject& m_object;
     glm::dvec3 m_ambient;
     TangentFrames m_tangent_frames;
+    bool m_normalises_half_vector;
     double m_eye_w;      ///< 0: m_eye is a direction
     glm::dvec3 m_eye{};  ///< object space
     std::vector<DoubleLight> m_lights;

@@ -11,7 +11,7 @@ namespace burnish::reference {
 /// It is not normalised, so they may be a little shorter than 1.
 struct Directions {
     glm::dvec3 l, v, h;
-    double h_l;  ///< of the unit vectors in object space
+    double h_l;  ///< h.l in object space
 };
 
 /// What a light of colour 1 adds: specular and diffuse part with the cosine. Every lobe is clamped

@@ -119,8 +119,7 @@ class LayerSurface : public SurfaceSampler {
             } else if (found->texture) {
                 m_textured.push_back({known->member, *found});
             } else {
-                m_constants.*known->member =
-                    found->components == 1 ? glm::dvec3(found->constant.x) : found->constant;
+                m_constants.*known->member = layer_value(*found, {});
             }
         }
         if (!m_missing.empty()) m_exact = exact_surface(material);
@@ -128,12 +127,7 @@ class LayerSurface : public SurfaceSampler {
 
     [[nodiscard]] Surface at(const glm::dvec2& uv) const override {
         Surface surface = m_constants;
-        for (const auto& [to, quantity] : m_textured) {
-            const glm::dvec3 value = decoded(
-                quantity,
-                sample_texture(*quantity.texture, uv, quantity.channel, quantity.components));
-            surface.*to = quantity.components == 1 ? glm::dvec3(value.x) : value;
-        }
+        for (const auto& [to, quantity] : m_textured) surface.*to = layer_value(quantity, uv);
         if (m_missing.empty()) return surface;
         const Surface exact = m_exact->at(uv);
         for (const auto member : m_missing) surface.*member = exact.*member;
@@ -161,6 +155,14 @@ glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int chan
             for (int c = 1; c < components; ++c) value[c] = value_of(texture, x, y, channel + c);
             return value;
         });
+}
+
+glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv) {
+    const glm::dvec3 value =
+        quantity.texture ? decoded(quantity, sample_texture(*quantity.texture, uv, quantity.channel,
+                                                            quantity.components))
+                         : quantity.constant;
+    return quantity.components == 1 ? glm::dvec3(value.x) : value;
 }
 
 std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {

@@ -16,6 +16,9 @@ namespace burnish::reference {
 glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int channel,
                           int components);
 
+/// A quantity of a machine's layer; a number in all three components.
+glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv);
+
 /// A material at any point of its maps. Either kind filters quantities, not the maps they come
 /// from.
 class SurfaceSampler {

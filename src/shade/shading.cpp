@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "machine/material_passes.hpp"
 #include "shade/normalisation_cube.hpp"
 
 namespace burnish {
@@ -346,41 +347,6 @@ void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine&
     Planner(shading, material, machine, is_mesh, light, units).plan();
 }
 
-bool has_room_for(const Machine& machine, const ProgramMaterial& material) {
-    if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) return false;
-    try {
-        material.combiners.validate(machine);
-    } catch (const Error&) {
-        return false;
-    }
-    return true;
-}
-
-std::vector<UnitTexels> unit_texels(const ProgramMaterial& material) {
-    std::vector<UnitTexels> kinds(16, UnitTexels::none);
-    for (std::size_t i = 0; i < material.units.size(); ++i) {
-        if (!material.units[i]) continue;
-        const bool is_unsigned =
-            format_class(material.units[i]->format()) == TexelClass::unsigned_rgba;
-        kinds[i] = is_unsigned ? UnitTexels::unsigned_texels : UnitTexels::signed_texels;
-    }
-    // Units of a shader may have colours without a texture, and no alpha without a colour.
-    for (std::size_t i = 0; material.texture_shader && i < material.texture_shader->units.size();
-         ++i) {
-        if (kinds[i] == UnitTexels::none) kinds[i] = UnitTexels::unsigned_texels;
-    }
-    return kinds;
-}
-
-/// Whether a unit of the shader works with what another one has.
-bool refers_to_units(const TextureShader& shader) {
-    return std::any_of(shader.units.begin(), shader.units.end(), [](const TextureUnit& unit) {
-        return unit.operation != TextureOperation::none &&
-               unit.operation != TextureOperation::texture_2d &&
-               unit.operation != TextureOperation::pass_through;
-    });
-}
-
 /// The material as a pass has it: its own program, and the textures that it reads.
 ProgramMaterial material_of_pass(const ProgramMaterial& material, const ProgramPass& pass) {
     ProgramMaterial own = material;
@@ -445,9 +411,7 @@ void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const 
 
 void plan_passes(Shading& shading, const ProgramMaterial& material, const Machine& machine,
                  bool is_mesh, int light) {
-    const std::vector<ProgramPass> passes =
-        split_into_passes(material.combiners, machine, unit_texels(material),
-                          material.texture_shader && refers_to_units(*material.texture_shader));
+    const std::vector<ProgramPass> passes = passes_of(material, machine);
     FramePlanes planes{0, 0};  // behind the planes of all passes
     bool quads = false;
     for (const ProgramPass& pass : passes) {

@@ -18,6 +18,9 @@ Material brushed_steel(std::uint32_t seed = 1);
 /// The names that scene files give to the models, those of the enumeration; `text` has none.
 std::vector<std::string_view> model_names();
 
+/// One of these; empty for `text`.
+std::string_view model_name(Model model);
+
 /// The model with that name; nothing for an unknown one.
 std::optional<Model> model_named(std::string_view name);
 

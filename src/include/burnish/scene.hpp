@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -78,6 +79,10 @@ enum class CoordinateInput {
     view_coded,
     vertex,  ///< the vertex's own of raw vertices; (0, 0, 0, 1) for a mesh
 };
+
+/// The words of scene files for these; `lit`, which they have no word for, is "lit".
+std::string_view input_name(ColorInput input);
+std::string_view input_name(CoordinateInput input);
 
 /// A pipeline given as a program instead of a reflectance model.
 struct ProgramMaterial {
