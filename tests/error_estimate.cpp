@@ -6,6 +6,7 @@
 #include <burnish/error.hpp>
 #include <burnish/materials.hpp>
 #include <burnish/renderer.hpp>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Cell {
     const char* machine;
     const char* set;  ///< null: constants
 };
+void PrintTo(const Cell& cell, std::ostream* to) {
+    *to << cell.machine << ", " << (cell.set != nullptr ? cell.set : "constants");
+}
 
 class MeasuredPictures : public testing::TestWithParam<Cell> {};
 

@@ -60,13 +60,15 @@ LitPlaces light_places(const TexelSource& source, reference::LayerFormula& formu
     lit.light = {dmath::sin(angle), 0.0, dmath::cos(angle)};
     const glm::dvec3 view(0.0, 0.0, 1.0), sum = lit.light + view;
     const glm::dvec3 half = sum / std::sqrt(glm::dot(sum, sum));
-    lit.places = local_geometries(source, lit.light, std::size_t{kSide} * kSide);
-    for (const LocalGeometry& g : lit.places) {
+    for (const LocalGeometry& g : local_geometries(source, lit.light, std::size_t{kSide} * kSide)) {
         const auto local = [&](const glm::dvec3& v) {
             return glm::dvec3(glm::dot(g.t, v), glm::dot(g.b, v), glm::dot(g.n, v));
         };
-        lit.values.push_back(formula.at(
-            g.uv, {local(lit.light), local(view), local(half), glm::dot(half, lit.light)}));
+        const glm::dvec3 value = formula.at(
+            g.uv, {local(lit.light), local(view), local(half), glm::dot(half, lit.light)});
+        if (!std::isfinite(glm::dot(value, glm::dvec3(1.0)))) continue;  // a text's 0 / 0
+        lit.places.push_back(g);
+        lit.values.push_back(value);
     }
     return lit;
 }
@@ -150,7 +152,7 @@ std::vector<ComparedPlace> compare(const Framebuffer& frame, const LitPlaces& li
         glm::vec4 pixel;
         std::memcpy(&pixel, frame.row(static_cast<int>(i / kSide)) + i % kSide * sizeof pixel,
                     sizeof pixel);
-        const glm::dvec3 want = glm::min(lit.values[i] * intensity, glm::dvec3(1.0));
+        const glm::dvec3 want = glm::clamp(lit.values[i] * intensity, 0.0, 1.0);
         compared.push_back({largest_of(lit.values[i]), lit.places[i].weight,
                             glm::abs(glm::dvec3(glm::vec3(pixel)) - want)});
         sum += lit.places[i].weight;
