@@ -179,29 +179,31 @@ std::string with_passes(const Material& material, Machine machine, const ModelNe
     const Machine room = with_room(machine);
     if (machine.multipass) {
         if (needs.stages <= room.general_stages) return "";
-        return fmt::format("; several passes have {} together", room.general_stages);
+        return fmt::format("several passes have {} together", room.general_stages);
     }
     machine.multipass = true;
     try {
         const std::size_t passes = compile_model(material, machine, light, ambient).passes.size();
-        return fmt::format("; in {} passes it fits (multipass)", passes);
+        return fmt::format("in {} passes it fits (multipass)", passes);
     } catch (const Error&) {
         return "";
     }
+}
+
+/// Throws what is short, and `more` behind it.
+[[noreturn]] void refuse(const Material& material, const Machine& machine, const Shortage& shortage,
+                         const std::string& more) {
+    std::string missing = shortages(shortage.needs, machine);
+    if (missing.empty()) missing = shortage.what();
+    throw Error(ErrorCode::bad_program,
+                fmt::format("{} on '{}': {}{}{}", name_of(material, shortage), machine.name,
+                            missing, more.empty() ? "" : "; ", more));
 }
 
 }  // namespace
 
 CompiledModel compile_model(const Material& material, const Machine& machine,
                             const glm::vec3& light, const glm::vec3& ambient) {
-    const auto refuse = [&](const Shortage& first, const ModelNeeds& needs,
-                            const std::string& end) {
-        std::string missing = shortages(needs, machine);
-        if (missing.empty()) missing = first.what();
-        throw Error(
-            ErrorCode::bad_program,
-            fmt::format("{} on '{}': {}{}", name_of(material, first), machine.name, missing, end));
-    };
     try {
         CompiledModel model = model_within(machine.multipass ? with_room(machine) : machine,
                                            material, machine, light, ambient);
@@ -209,13 +211,13 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
         try {
             model.passes = passes_of(model.program, machine);
         } catch (const Error& obstacle) {
-            refuse(Shortage(""), model.needs, fmt::format("; {}", obstacle.what()));
+            refuse(material, machine, Shortage("", model.needs), obstacle.what());
         }
         return model;
-    } catch (const Shortage& first) {
-        const ModelNeeds needs = count_needs(first, material, machine, light, ambient);
-        refuse(first, needs, with_passes(material, machine, needs, light, ambient));
-        throw;
+    } catch (Shortage& shortage) {
+        shortage.needs = count_needs(shortage, material, machine, light, ambient);
+        refuse(material, machine, shortage,
+               with_passes(material, machine, shortage.needs, light, ambient));
     }
 }
 
