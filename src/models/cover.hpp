@@ -66,6 +66,7 @@ class Cover {
     /// How `e` is looked up by a cut, at infinite cost if it cannot be.
     Way looked_up(const Expr& e, const NodeSet& cut);
     [[nodiscard]] bool bounded(const Expr& e);
+    [[nodiscard]] bool is_inverse(const Expr& e);
 
     Ranges& m_ranges;
     NumberModel m_numbers;
