@@ -19,11 +19,12 @@ namespace {
 constexpr int kFrameSize = 256;
 constexpr double kPeak = 0.9;
 
-Framebuffer in_double(const Scene& scene) {
+Framebuffer in_double(const Scene& scene, bool machine_grid = false) {
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
     WorkerPool pool(1);
     DoubleOptions options;
     if (!scene.machine.double_precision) options.layer_machine = scene.machine;
+    options.machine_grid = machine_grid;
     render_double(scene, frame, pool, options);
     return frame;
 }
@@ -131,6 +132,8 @@ ModelMeasurement measure_model(Model model, std::string_view machine,
         Framebuffer got(scene.width, scene.height, PixelFormat::rgba32f);
         Renderer({.threads = 1}).render(scene, got);
         measured.errors = frame_errors(got, want);
+        if (parameters.shift_variant && scene.machine.numbers == NumberModel::wide)
+            measured.on_its_grid = frame_errors(got, in_double(scene, true));
     } catch (const Error& error) {
         measured.refusal = error.what();
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/scene.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,9 @@ struct ModelMeasurement {
     int units = 0;   ///< textures: those of the material layer and tables
     int stages = 0;  ///< general stages, before they are split into passes
     FrameErrors errors;
+    /// Against the double picture with the machine's corners and texel coordinates; of parameters
+    /// that vary, on wide machines.
+    std::optional<FrameErrors> on_its_grid;
 };
 
 /// One cell of the table; on this thread alone.

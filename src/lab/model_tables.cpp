@@ -59,16 +59,20 @@ std::string summary(std::span<const ModelMeasurement> measurements,
     return text;
 }
 
-std::string short_cell(const ModelMeasurement* m) {
+/// Which double picture a machine's is compared with.
+enum class Against { exact, its_grid };
+
+std::string short_cell(const ModelMeasurement* m, Against against) {
     if (m == nullptr) return "";
     if (!m->refusal.empty()) return "no";
-    return fmt::format("{:.4f}, {:.1f}", m->errors.rmse, m->errors.step_excess * 255.0);
+    const FrameErrors& errors = against == Against::exact ? m->errors : m->on_its_grid.value();
+    return fmt::format("{:.4f}, {:.1f}", errors.rmse, errors.step_excess * 255.0);
 }
 
 /// Models by parameters, each cell RMSE and step.
 std::string everything(std::span<const ModelMeasurement> measurements, const std::string& machine,
-                       const std::vector<Model>& models,
-                       const std::vector<std::string>& parameters) {
+                       const std::vector<Model>& models, const std::vector<std::string>& parameters,
+                       Against against = Against::exact) {
     std::string text = "| model |";
     std::string rule = "|---|";
     for (const std::string& p : parameters) {
@@ -79,7 +83,8 @@ std::string everything(std::span<const ModelMeasurement> measurements, const std
     for (const Model model : models) {
         text += fmt::format("| `{}` |", name_of(model));
         for (const std::string& p : parameters)
-            text += fmt::format(" {} |", short_cell(find(measurements, model, machine, p)));
+            text +=
+                fmt::format(" {} |", short_cell(find(measurements, model, machine, p), against));
         text += "\n";
     }
     return text;
@@ -127,6 +132,9 @@ std::string model_tables(std::span<const ModelMeasurement> measurements,
         text += fmt::format("\nOn {}, generated sets:\n\n{}", machine,
                             everything(measurements, machine, models, sets));
     }
+    text += fmt::format("\nOn {}, generated sets, against its corners and texel coordinates:\n\n{}",
+                        machines.back(),
+                        everything(measurements, machines.back(), models, sets, Against::its_grid));
     if (const std::string no = refusals(measurements); !no.empty())
         text += "\n\"no\", at its first place:\n\n" + no;
     return text;

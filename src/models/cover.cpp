@@ -197,6 +197,15 @@ Cover::Way Cover::looked_up(const Expr& e, const NodeSet& cut, double cost) {
     return way;
 }
 
+/// 1 - x of 0 <= x <= 1, which a mapping gives.
+bool Cover::is_inverse(const Expr& e) {
+    const Expr& x = *e.args[1];
+    if (!is_number(*e.args[0], 1.0) || x.op != ExprOp::multiply || !is_number(*x.args[0], -1.0))
+        return false;
+    const Interval range = m_ranges.of(*x.args[1]);
+    return range.low >= 0.0 && range.high <= 1.0;
+}
+
 const Cover::Way& Cover::best(const Expr& e) {
     const auto at = m_best.find(&e);
     if (at != m_best.end()) return at->second;
@@ -217,6 +226,10 @@ const Cover::Way& Cover::best(const Expr& e) {
             }
             break;
         case ExprOp::add: {
+            if (is_inverse(e)) {
+                way.cost = best(*e.args[1]->args[1]).cost;
+                break;
+            }
             way.cost = kOperation;
             for (const ExprPtr& a : e.args) {
                 // A product of two pixel values comes along with its sum.

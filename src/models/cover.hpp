@@ -68,6 +68,7 @@ class Cover {
     /// How `e` is looked up by a cut.
     Way looked_up(const Expr& e, const NodeSet& cut, double cost);
     [[nodiscard]] bool bounded(const Expr& e);
+    [[nodiscard]] bool is_inverse(const Expr& e);
 
     Ranges& m_ranges;
     NumberModel m_numbers;

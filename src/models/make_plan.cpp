@@ -483,7 +483,14 @@ class Planner {
     }
 
     Product product_of(const Expr& e) {
-        const Operand a = lower(*e.args[0]);
+        Operand a = lower(*e.args[0]);
+        if (e.args[0] == e.args[1]) {
+            // A square's rounding is a share of the square of its unit; stages are there for it.
+            const double wanted = wanted_of(*e.args[0]);
+            if (m_task.numbers == NumberModel::wide && a.unit > 1.5 * wanted)
+                a = in_units(a, wanted);
+            return {a.input, a.input, a.unit * a.unit};
+        }
         const Operand b = lower(*e.args[1]);
         return {a.input, b.input, a.unit * b.unit};
     }

@@ -10,7 +10,8 @@
 namespace burnish {
 
 // Tables need bounds. n.v is held above 1/32 where it divides, in every renderer. n.h is held above
-// 3/8 in exponents: where it is less, lobes of alpha up to 1/2 are below 10^-5.
+// 1/8 in exponents: of unit vectors lobes of alpha up to 1/2 are below 10^-7 where it is less, and
+// vectors that a filter made shorter are rarely that far from h.
 //
 // Fibres: sqrt(1 - a^2) sqrt(1 - c^2) - a c is the cosine of what a C + c A is the sine of. A power
 // of the cosine is too steep near 1 for its register: N codes for one at N = 128. Of the sine it is
@@ -84,14 +85,13 @@ S * min(2, exp(-q / H^2) / H^4) * (nl / max(1/32, h_dot_l^2)) + kd * nl)";
 V = b * sqrt(2) / alpha_y
 S = sqrt((2 / alpha_x^2 + 1) * (2 / alpha_y^2 + 1)) / (8 * pi)
 A = ks * S
-C = (1 - ks) * S
 q = dot(h, U)^2 + dot(h, V)^2
 H = min(0.9999, max(1/8, dot(n, h)))
 nl = max(0, dot(n, l))
 nv = max(1/32, dot(n, v))
 F = (1 - h_dot_l)^5
 D = H^(q / (1 - H^2))
-(A + C * F) * (D * (nl / max(nl, nv)) * (1 / max(1/8, h_dot_l))) + kd * nl)";
+(A * (1 - F) + S * F) * (D * (nl / max(nl, nv)) * (1 / max(1/8, h_dot_l))) + kd * nl)";
         case Model::ggx:  // (h.t / ax)^2 + (h.b / ay)^2 + (h.n)^2 = 1 + (h.X)^2 + (h.Y)^2
             return R"(X = t * sqrt(max(0, 1 / alpha_x^2 - 1))
 Y = b * sqrt(max(0, 1 / alpha_y^2 - 1))
@@ -99,7 +99,6 @@ P = t * alpha_x
 Q = b * alpha_y
 S = 1 / (2 * pi * alpha_x * alpha_y)
 A = ks * S
-C = (1 - ks) * S
 D = 1 / (1 + dot(h, X)^2 + dot(h, Y)^2)^2
 F = (1 - h_dot_l)^5
 nl = max(0, dot(n, l))
@@ -109,7 +108,7 @@ gl = max(1/32, sqrt(dot(l, P)^2 + dot(l, Q)^2 + nl^2))
 r = min(1, nl / gl)
 G = min(1, r / max(1/64, r + min(1, nv / gv)))
 s = 1 / sqrt(gv)
-(A + C * F) * (s * (s * (D * G))) + kd * nl)";
+(A * (1 - F) + S * F) * (s * (s * (D * G))) + kd * nl)";
         case Model::text:
             break;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <burnish/error.hpp>
+#include <cmath>
 
 namespace burnish::reference {
 
@@ -28,10 +29,11 @@ std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
 }
 
 std::shared_ptr<const SurfaceSampler> surface_of_material(
-    const Material& material, const std::optional<Machine>& layer_machine) {
+    const Material& material, const std::optional<Machine>& layer_machine, bool machine_grid) {
     if (material.model == Model::text) return nullptr;
     if (!layer_machine) return exact_surface(material);
-    return layer_surface(material, material_layer(material, *layer_machine));
+    return layer_surface(material, material_layer(material, *layer_machine),
+                         machine_grid ? TexelSteps::machine : TexelSteps::exact);
 }
 
 std::shared_ptr<const TextModel> text_of_material(const Material& material,
@@ -41,7 +43,8 @@ std::shared_ptr<const TextModel> text_of_material(const Material& material,
     return std::make_shared<TextModel>(material, material_layer(material, *layer_machine));
 }
 
-DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine) {
+DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine,
+                           bool machine_grid) {
     static const Material kDefault;
     const Material& material = object.material ? *object.material : kDefault;
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
@@ -53,7 +56,7 @@ DoubleObject double_object(const Object& object, const std::optional<Machine>& l
             {mesh->indices().begin(), mesh->indices().end()},
             glm::dmat4(object.world_from_object),
             material.model,
-            surface_of_material(material, layer_machine),
+            surface_of_material(material, layer_machine, machine_grid),
             text_of_material(material, layer_machine),
             object.raster.depth_test,
             object.raster.depth_write,
@@ -63,8 +66,10 @@ DoubleObject double_object(const Object& object, const std::optional<Machine>& l
 }  // namespace
 
 DoubleScene double_scene(const Scene& scene, int width, int height,
-                         const std::optional<Machine>& layer_machine) {
+                         const std::optional<Machine>& layer_machine, bool machine_grid) {
     DoubleScene out;
+    if (layer_machine && machine_grid)
+        out.grid = {std::ldexp(1.0, layer_machine->subpixel_bits), layer_machine->snap_floor};
     out.view = make_view(scene.camera, width, height);
     out.viewer = scene.machine.viewer;
     out.tangent_frames = scene.machine.tangent_frames;
@@ -76,7 +81,7 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
                               glm::dvec3(light.color) * static_cast<double>(light.intensity)});
     }
     for (const Object& object : scene.objects)
-        out.objects.push_back(double_object(object, layer_machine));
+        out.objects.push_back(double_object(object, layer_machine, machine_grid));
     return out;
 }
 

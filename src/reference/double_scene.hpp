@@ -41,6 +41,12 @@ struct DoubleObject {
     Cull cull;
 };
 
+/// What a machine snaps corners to.
+struct CornerGrid {
+    double steps = 256.0;    ///< a pixel
+    bool downwards = false;  ///< else to the nearest
+};
+
 struct DoubleScene {
     View view;
     Viewer viewer = Viewer::local;
@@ -50,13 +56,15 @@ struct DoubleScene {
     glm::dvec3 ambient;
     glm::dvec4 background;
     std::vector<DoubleObject> objects;
+    std::optional<CornerGrid> grid;  ///< nothing: corners are where they are
 };
 
 /// `scene` for a frame of that size. Materials are exact, or the layer that `layer_machine` works
-/// from, texel for texel. Throws Error{bad_program} for an object that has no reflectance model or
-/// is not drawn by depth alone, Error{bad_option} for a camera that sees nothing, and what
-/// material_layer throws.
+/// from, texel for texel, with `machine_grid` at its coordinates (not for texts). Throws
+/// Error{bad_program} for an object that has no reflectance model or is not drawn by depth alone,
+/// Error{bad_option} for a camera that sees nothing, and what material_layer throws.
 DoubleScene double_scene(const Scene& scene, int width, int height,
-                         const std::optional<Machine>& layer_machine = {});
+                         const std::optional<Machine>& layer_machine = {},
+                         bool machine_grid = false);
 
 }  // namespace burnish::reference

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace burnish::reference {
 
@@ -22,6 +23,13 @@ bool outside(const std::array<glm::dvec4, 3>& clip) {
         if (all([&](const glm::dvec4& c) { return c[axis] > c.w; })) return true;
     }
     return false;
+}
+
+/// (x, y, w) with x / w and y / w on the grid; corners behind the eye stay.
+glm::dvec3 snapped(const glm::dvec3& corner, const CornerGrid& grid) {
+    if (!(corner.z > 0.0)) return corner;
+    const glm::dvec2 at = glm::dvec2(corner) / corner.z * grid.steps;
+    return {glm::floor(at + (grid.downwards ? 0.0 : 0.5)) / grid.steps * corner.z, corner.z};
 }
 
 int pixel_of(double coordinate, int size) {
@@ -49,7 +57,7 @@ bool culled(Cull cull, double determinant) {
 class ObjectProjection {
   public:
     ObjectProjection(const DoubleScene& scene, const DoubleObject& object, FrameSize size)
-        : m_size(size) {
+        : m_size(size), m_grid(scene.grid) {
         const glm::dmat4 clip_from_object = scene.view.clip_from_world * object.world_from_object;
         m_clip.reserve(object.vertices.size());
         for (const DoubleVertex& v : object.vertices)
@@ -65,6 +73,7 @@ class ObjectProjection {
             clip[i] = m_clip[object.indices[3 * number + i]];
             corner[i] = {(clip[i].x + clip[i].w) * (0.5 * m_size.width),
                          (clip[i].w - clip[i].y) * (0.5 * m_size.height), clip[i].w};
+            if (m_grid) corner[i] = snapped(corner[i], *m_grid);
         }
         ++counts.submitted;
         if (!std::all_of(clip.begin(), clip.end(), is_finite)) {
@@ -96,6 +105,7 @@ class ObjectProjection {
 
   private:
     FrameSize m_size;
+    std::optional<CornerGrid> m_grid;
     std::vector<glm::dvec4> m_clip;
 };
 

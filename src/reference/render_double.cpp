@@ -301,8 +301,9 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
     const reference::FrameSize size{target.width(), target.height()};
     try {
         return reference::render(
-            reference::double_scene(scene, size.width, size.height, options.layer_machine), size,
-            pattern, pool, [&](int x, int y, const glm::dvec4& color) {
+            reference::double_scene(scene, size.width, size.height, options.layer_machine,
+                                    options.machine_grid),
+            size, pattern, pool, [&](int x, int y, const glm::dvec4& color) {
                 store(color, target.format(),
                       target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
             });

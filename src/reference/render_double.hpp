@@ -19,6 +19,9 @@ struct DoubleOptions {
     std::uint32_t seed = 1;  ///< of where samples lie, if there are several
     /// Whose material layer is looked up, coded as in its textures; nothing: materials are exact.
     std::optional<Machine> layer_machine = {};
+    /// With a layer machine: also corners where it snaps them to, and texel coordinates in its
+    /// steps of 1/256, downwards.
+    bool machine_grid = false;
 };
 inline constexpr int kMaxDoubleSamples = 1024;
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr glm::dvec3 Surface::*kMembers[] = {
     &Surface::n, &Surface::t,  &Surface::X,  &Surface::Y, &Surface::U, &Surface::V, &Surface::P,
-    &Surface::Q, &Surface::ks, &Surface::kd, &Surface::N, &Surface::S, &Surface::A, &Surface::C};
+    &Surface::Q, &Surface::ks, &Surface::kd, &Surface::N, &Surface::S, &Surface::A};
 
-/// Height of the lobe that S or A and C are multiplied with.
+/// Height of the lobe.
 double height(Model model, double alpha_x, double alpha_y) {
     const double area = std::numbers::pi * alpha_x * alpha_y;
     if (model == Model::ggx) return 1.0 / (2.0 * area);
@@ -53,8 +53,9 @@ Surface surface_of(Model model, const TexelParameters& p) {
     s.ks = p.ks;
     s.kd = p.kd;
     s.N = glm::dvec3(p.exponent);
-    s.S = s.A = p.ks * peak;
-    s.C = (1.0 - p.ks) * peak;
+    const bool schlick = model == Model::ashikhmin_shirley || model == Model::ggx;
+    s.A = p.ks * peak;
+    s.S = schlick ? glm::dvec3(peak) : s.A;
     return s;
 }
 

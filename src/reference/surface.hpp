@@ -17,14 +17,14 @@ struct Surface {
     glm::dvec3 U{0.0}, V{0.0};  ///< t and b times the roots of the exponents, sqrt(2) / width
     glm::dvec3 P{0.0}, Q{0.0};  ///< t and b times the widths
     glm::dvec3 ks{0.0}, kd{0.0}, N{0.0};
-    glm::dvec3 S{0.0};          ///< ks times the lobe's height
-    glm::dvec3 A{0.0}, C{0.0};  ///< height times ks, which is F0, and times 1 - ks
+    glm::dvec3 S{0.0};  ///< ks times the lobe's height, with a Fresnel factor the height
+    glm::dvec3 A{0.0};  ///< height times ks, which is F0
 };
 
 Surface operator*(const Surface& surface, double factor);
 Surface operator+(const Surface& a, const Surface& b);
 
-/// What `model` needs of them for a texel's parameters. The height that S, A and C have in them is
+/// What `model` needs of them for a texel's parameters. The height that S and A have in them is
 /// 1 / (4 pi alpha_x alpha_y) of Ward's family, 1 / (2 pi alpha_x alpha_y) of ggx and
 /// sqrt((nu + 1) (nv + 1)) / (8 pi) of ashikhmin_shirley.
 Surface surface_of(Model model, const TexelParameters& texel);

@@ -14,7 +14,7 @@ struct NamedQuantity {
     std::string_view name;
     glm::dvec3 Surface::*member;
 };
-constexpr std::array<NamedQuantity, 14> kQuantities{{{"n", &Surface::n},
+constexpr std::array<NamedQuantity, 13> kQuantities{{{"n", &Surface::n},
                                                      {"t", &Surface::t},
                                                      {"X", &Surface::X},
                                                      {"Y", &Surface::Y},
@@ -26,7 +26,6 @@ constexpr std::array<NamedQuantity, 14> kQuantities{{{"n", &Surface::n},
                                                      {"kd", &Surface::kd},
                                                      {"S", &Surface::S},
                                                      {"A", &Surface::A},
-                                                     {"C", &Surface::C},
                                                      {"N", &Surface::N}}};
 
 /// Names of what the formulas of shade.cpp read.
@@ -36,8 +35,8 @@ std::span<const std::string_view> needed(Model model) {
     static constexpr std::string_view kBanks[] = {"t", "n", "ks", "kd", "N"};
     static constexpr std::string_view kKajiyaKay[] = {"t", "ks", "kd", "N"};
     static constexpr std::string_view kWard[] = {"X", "Y", "n", "S", "kd"};
-    static constexpr std::string_view kAshikhmin[] = {"U", "V", "n", "A", "C", "kd"};
-    static constexpr std::string_view kGgx[] = {"X", "Y", "P", "Q", "n", "A", "C", "kd"};
+    static constexpr std::string_view kAshikhmin[] = {"U", "V", "n", "A", "S", "kd"};
+    static constexpr std::string_view kGgx[] = {"X", "Y", "P", "Q", "n", "A", "S", "kd"};
     switch (model) {
         case Model::blinn_phong:
         case Model::abp:
@@ -107,7 +106,8 @@ class ExactSurface : public SurfaceSampler {
 
 class LayerSurface : public SurfaceSampler {
   public:
-    LayerSurface(const Material& material, std::span<const LayerQuantity> layer) {
+    LayerSurface(const Material& material, std::span<const LayerQuantity> layer, TexelSteps steps)
+        : m_steps(steps) {
         for (const std::string_view name : needed(material.model)) {
             const auto found = std::find_if(layer.begin(), layer.end(),
                                             [&](const LayerQuantity& q) { return q.name == name; });
@@ -127,7 +127,8 @@ class LayerSurface : public SurfaceSampler {
 
     [[nodiscard]] Surface at(const glm::dvec2& uv) const override {
         Surface surface = m_constants;
-        for (const auto& [to, quantity] : m_textured) surface.*to = layer_value(quantity, uv);
+        for (const auto& [to, quantity] : m_textured)
+            surface.*to = layer_value(quantity, coordinate(quantity, uv));
         if (m_missing.empty()) return surface;
         const Surface exact = m_exact->at(uv);
         for (const auto member : m_missing) surface.*member = exact.*member;
@@ -135,6 +136,13 @@ class LayerSurface : public SurfaceSampler {
     }
 
   private:
+    [[nodiscard]] glm::dvec2 coordinate(const LayerQuantity& quantity, const glm::dvec2& uv) const {
+        if (m_steps == TexelSteps::exact) return uv;
+        const glm::dvec2 steps =
+            256.0 * glm::dvec2(quantity.texture->width(), quantity.texture->height());
+        return glm::floor(uv * steps) / steps;
+    }
+
     struct Textured {
         glm::dvec3 Surface::*to;
         LayerQuantity quantity;
@@ -143,6 +151,7 @@ class LayerSurface : public SurfaceSampler {
     std::vector<Textured> m_textured;
     std::vector<glm::dvec3 Surface::*> m_missing;
     std::unique_ptr<SurfaceSampler> m_exact;
+    TexelSteps m_steps;
 };
 
 }  // namespace
@@ -173,8 +182,9 @@ std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {
 }
 
 std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,
-                                              std::span<const LayerQuantity> layer) {
-    return std::make_unique<LayerSurface>(material, layer);
+                                              std::span<const LayerQuantity> layer,
+                                              TexelSteps steps) {
+    return std::make_unique<LayerSurface>(material, layer, steps);
 }
 
 }  // namespace burnish::reference

@@ -19,6 +19,9 @@ glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int chan
 /// A quantity of a machine's layer; a number in all three components.
 glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv);
 
+/// Texel coordinates as they are, or in the steps of 1/256 texel that machines have, downwards.
+enum class TexelSteps { exact, machine };
+
 /// A material at any point of its maps. Either kind filters quantities, not the maps they come
 /// from.
 class SurfaceSampler {
@@ -34,6 +37,7 @@ std::unique_ptr<SurfaceSampler> exact_surface(const Material& material);
 /// Quantities as they stand in the textures of a machine's layer; those that it does without are
 /// exact.
 std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,
-                                              std::span<const LayerQuantity> layer);
+                                              std::span<const LayerQuantity> layer,
+                                              TexelSteps steps = TexelSteps::exact);
 
 }  // namespace burnish::reference
