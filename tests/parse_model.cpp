@@ -325,8 +325,9 @@ TEST(ParseModelTest, WhatIsPrintedIsReadAgain) {
         EXPECT_EQ(printed(**second.program), once);
         // Numbers of at most six digits come back as the same node.
         if (text.find("pi") == std::string::npos && text.find("3e-7") == std::string::npos &&
-            text.find("sqrt(2)") == std::string::npos)
+            text.find("sqrt(2)") == std::string::npos) {
             EXPECT_EQ(*first.program, *second.program) << once;
+        }
     }
 }
 
