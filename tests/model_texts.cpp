@@ -99,9 +99,6 @@ bool bends(Model model, const FormulaSurface& s, const glm::dvec3& l, const glm:
             return n_l <= 0.0 || n_v < 1.0 / 32.0 || g_l < 1.0 / 32.0 ||
                    n_l / g_l + n_v / g_v < 1.0 / 64.0;
         }
-        case Model::banks:
-        case Model::kajiya_kay:
-            return reflectance::kajiya_kay(s.frame.t, l, v, 1.0) < 1.0 / 32.0;
         default:
             return n_h < 0.0;  // these lobes are even in h
     }
