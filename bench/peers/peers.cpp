@@ -1,0 +1,204 @@
+// Burnish beside Mesa's llvmpipe, scene by scene: the two take turns, every round is a new process
+// of its own. Writes JSON and a table; docs/performance.md says what is compared.
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench/peers/agreement.hpp"
+#include "bench/peers/measurement.hpp"
+#include "bench/peers/process.hpp"
+#include "core/parallel.hpp"
+#include "lab/frame_errors.hpp"
+#include "reference/render_double.hpp"
+
+namespace burnish::peers {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPeak = 0.9;
+/// Pictures agree up to this RMSE. Nine-bit registers on a half vector of eight bits are up to
+/// 0.01 from the formula (docs/models.md), llvmpipe's bilinear bytes as much on narrow lobes.
+constexpr double kLargestRmse = 0.02;
+
+struct Options {
+    std::vector<std::string> scenes;
+    std::vector<std::string> isas{""};
+    std::vector<int> threads{1, 2};
+    int rounds = 3;
+    double seconds = 0.5;
+    fs::path output = "out/peers";
+    bool realtime = true;
+};
+
+struct Size {
+    int width, height;
+};
+
+/// The sizes that a scene is drawn at.
+std::vector<Size> sizes_of(const std::string& scene) {
+    if (scene == "S1c") return {{640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}};
+    if (scene == "S5a") return {{800, 600}};
+    return {{1920, 1080}};
+}
+
+/// A scene whose light makes the double-precision picture's peak 0.9, and that picture.
+struct Exposed {
+    PeerScene scene;
+    float intensity = 1.0F;
+    std::optional<Framebuffer> truth;
+};
+
+Exposed expose(const std::string& name, Size size) {
+    Exposed exposed{peer_scene(name, size.width, size.height, 1.0F), 1.0F, {}};
+    if (!exposed.scene.has_double) return exposed;
+    WorkerPool pool(0);
+    const auto draw = [&] {
+        Framebuffer frame(size.width, size.height, PixelFormat::rgba32f);
+        DoubleOptions options;
+        options.layer_machine = exposed.scene.scene.machine;
+        render_double(exposed.scene.scene, frame, pool, options);
+        return frame;
+    };
+    exposed.intensity = static_cast<float>(kPeak / lab::interior_peak(draw()));
+    exposed.scene = peer_scene(name, size.width, size.height, exposed.intensity);
+    exposed.truth.emplace(draw());
+    return exposed;
+}
+
+/// Runs `peer_frames` beside this program.
+class Runner {
+  public:
+    Runner(const fs::path& program, const Options& options)
+        : m_program(program), m_options(options) {
+        if (options.realtime && succeeds({"chrt", "-f", "5", "true"}))
+            m_prefix = {"chrt", "-f", "5"};
+    }
+
+    [[nodiscard]] bool realtime() const { return !m_prefix.empty(); }
+
+    /// One process; its median frame goes to `times`. `picture`: where its last frame goes.
+    void run(const std::string& contender, const Measurement& m, float intensity,
+             const fs::path& picture, Times& times) const {
+        std::vector<std::string> command = m_prefix;
+        // One thread means one core: llvmpipe's main thread works, too.
+        if (m.threads == 1) command.insert(command.end(), {"taskset", "-c", "0"});
+        command.insert(command.end(),
+                       {m_program, contender, m.scene, "--width", std::to_string(m.width),
+                        "--height", std::to_string(m.height), "--threads",
+                        std::to_string(m.threads), "--intensity", fmt::format("{}", intensity),
+                        "--seconds", fmt::format("{}", m_options.seconds), "--picture", picture});
+        std::vector<double> frames;
+        for (const std::string& line : output_of(command)) {
+            if (line.rfind("ms ", 0) == 0) frames.push_back(std::stod(line.substr(3)));
+            if (line.rfind("renderer ", 0) == 0) times.renderer = line.substr(9);
+        }
+        if (frames.empty()) throw std::runtime_error(contender + ": no frame was timed");
+        times.rounds.push_back(median(frames));
+    }
+
+  private:
+    fs::path m_program;
+    const Options& m_options;
+    std::vector<std::string> m_prefix;
+};
+
+Framebuffer load_picture(const PeerScene& scene, const fs::path& path) {
+    FrameBytes bytes(4 * static_cast<std::size_t>(scene.scene.width) *
+                     static_cast<std::size_t>(scene.scene.height));
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+    return picture_of(scene, bytes);
+}
+
+Measurement measure(const Exposed& exposed, int threads, const std::string& isa,
+                    const Runner& runner, const Options& options) {
+    Measurement m;
+    m.scene = exposed.scene.name;
+    m.width = exposed.scene.scene.width;
+    m.height = exposed.scene.scene.height;
+    m.threads = threads;
+    m.isa = isa;
+    if (!isa.empty()) setenv("BURNISH_ISA", isa.c_str(), 1);
+    const fs::path ours = options.output / "burnish.raw", theirs = options.output / "llvmpipe.raw";
+    for (int round = 0; round < options.rounds; ++round) {
+        runner.run("burnish", m, exposed.intensity, ours, m.burnish);
+        runner.run("llvmpipe", m, exposed.intensity, theirs, m.peer);
+    }
+    m.agreement = compare(load_picture(exposed.scene, ours), load_picture(exposed.scene, theirs),
+                          exposed.truth ? &*exposed.truth : nullptr);
+    m.agree = m.agreement.holds(kLargestRmse);
+    return m;
+}
+
+void write(const fs::path& path, const std::string& text) {
+    std::ofstream file(path);
+    file << text;
+    if (!file.flush()) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+void run(const Options& options, const fs::path& program) {
+    fs::create_directories(options.output);
+    const Runner runner(program.parent_path() / "peer_frames", options);
+    fmt::print("{}, {}\n", processor(),
+               runner.realtime() ? "real-time priority" : "ordinary priority");
+    std::vector<Measurement> all;
+    for (const std::string& name : options.scenes) {
+        for (const Size size : sizes_of(name)) {
+            const Exposed exposed = expose(name, size);
+            for (const std::string& isa : options.isas) {
+                for (const int threads : options.threads) {
+                    all.push_back(measure(exposed, threads, isa, runner, options));
+                    fmt::print("{}", all.size() == 1 ? table(all) : table_line(all.back()));
+                    std::fflush(stdout);
+                    write(options.output / "peers.json", json(all, processor()));
+                    write(options.output / "peers.md", table(all));
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace burnish::peers
+
+int main(int argc, char** argv) {
+    namespace peers = burnish::peers;
+    peers::Options options;
+    for (const std::string_view name : peers::scene_names()) options.scenes.emplace_back(name);
+    CLI::App app("Compares burnish with Mesa's llvmpipe: times, pictures, ratios.");
+    app.add_option("--scenes", options.scenes, "of docs/performance.md; default: all")
+        ->delimiter(',');
+    app.add_option("--threads", options.threads)->delimiter(',')->check(CLI::Range(1, 1024));
+    app.add_option("--isa", options.isas, "instruction sets of burnish; default: the best")
+        ->delimiter(',');
+    app.add_option("--rounds", options.rounds, "processes of each")->check(CLI::Range(1, 1000));
+    app.add_option("--seconds", options.seconds, "of frames in a process, at least");
+    app.add_option("-o,--output", options.output, "folder for peers.json and peers.md");
+    app.add_flag("!--ordinary-priority", options.realtime, "never ask for real-time priority");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        peers::run(options, std::filesystem::canonical("/proc/self/exe"));
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "peers: {}\n", error.what());
+        return 1;
+    }
+}
