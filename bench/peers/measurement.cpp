@@ -74,11 +74,13 @@ double Measurement::most_ratio() const {
     return std::ranges::max(ratios(*this));
 }
 
-std::string json(const std::vector<Measurement>& measurements, const std::string& processor) {
+std::string json(const std::vector<Measurement>& measurements, const Surroundings& surroundings) {
     std::string list;
     for (const Measurement& m : measurements) list += (list.empty() ? "" : ",\n  ") + json(m);
-    return fmt::format("{{\"processor\": \"{}\",\n \"measurements\": [\n  {}\n ]}}\n", processor,
-                       list);
+    return fmt::format(
+        "{{\"processor\": \"{}\", \"realtime\": {}, \"rounds\": {},\n \"measurements\": [\n  "
+        "{}\n ]}}\n",
+        surroundings.processor, surroundings.realtime, surroundings.rounds, list);
 }
 
 std::string table_line(const Measurement& m) {
@@ -93,8 +95,15 @@ std::string table_line(const Measurement& m) {
                        optional_number(m.agreement.second_rmse, ""));
 }
 
-std::string table(const std::vector<Measurement>& measurements) {
-    std::string text =
+std::string report(const std::vector<Measurement>& measurements, const Surroundings& surroundings) {
+    std::string text;
+    if (!measurements.empty()) {
+        text =
+            fmt::format("{}, {} priority, {} rounds. {}. {}.\n\n", surroundings.processor,
+                        surroundings.realtime ? "real-time" : "ordinary", surroundings.rounds,
+                        measurements.front().burnish.renderer, measurements.front().peer.renderer);
+    }
+    text +=
         "| scene | size | threads | burnish, ms | llvmpipe, ms | ratio | RMSE between | burnish "
         "to double | llvmpipe to double |\n|---|---|---|---|---|---|---|---|---|\n";
     for (const Measurement& m : measurements) text += table_line(m);

@@ -28,8 +28,8 @@ struct Measurement {
     Agreement agreement;
     bool agree = false;
 
-    /// The peer's time over burnish's: of the medians, and the least and most of the rounds, which
-    /// ran in pairs.
+    /// The peer's time over burnish's: of the medians; the least and the most of the rounds, in
+    /// which the two ran one after the other.
     [[nodiscard]] double ratio() const { return peer.median() / burnish.median(); }
     [[nodiscard]] double least_ratio() const;
     [[nodiscard]] double most_ratio() const;
@@ -37,11 +37,18 @@ struct Measurement {
 
 double median(std::vector<double> values);
 
-/// One object: what was measured on what, and all numbers.
-std::string json(const std::vector<Measurement>& measurements, const std::string& processor);
+/// On what and how it was measured.
+struct Surroundings {
+    std::string processor;
+    bool realtime = false;  ///< priority
+    int rounds = 0;
+};
 
-/// Markdown, a line for each.
-std::string table(const std::vector<Measurement>& measurements);
+/// One object with all numbers.
+std::string json(const std::vector<Measurement>& measurements, const Surroundings& surroundings);
+
+/// Markdown: surroundings, then a table with a line for each.
+std::string report(const std::vector<Measurement>& measurements, const Surroundings& surroundings);
 std::string table_line(const Measurement& measurement);
 
 }  // namespace burnish::peers
