@@ -11,6 +11,9 @@ namespace burnish::peers {
 
 namespace {
 
+constexpr const char* kExpected =
+    "expected OpenGL 4.5 from Mesa (packages libegl1, libgl1-mesa-dri)";
+
 std::string gl_string(GLenum name) {
     return reinterpret_cast<const char*>(glGetString(name));
 }
@@ -18,9 +21,7 @@ std::string gl_string(GLenum name) {
 void require(bool holds, const char* what) {
     if (holds) return;
     throw std::runtime_error(
-        fmt::format("{}: EGL error 0x{:x}; expected OpenGL 4.5 from Mesa "
-                    "(packages libegl1, libgl1-mesa-dri)",
-                    what, eglGetError()));
+        fmt::format("{}: EGL error 0x{:x}, {}", what, eglGetError(), kExpected));
 }
 
 }  // namespace
@@ -29,6 +30,10 @@ GlContext::GlContext(int threads) {
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    for (const char* extension : {"EGL_EXT_platform_base", "EGL_MESA_platform_surfaceless"}) {
+        if (epoxy_has_egl_extension(EGL_NO_DISPLAY, extension)) continue;
+        throw std::runtime_error(fmt::format("no {}, {}", extension, kExpected));
+    }
     m_display =
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     require(m_display != EGL_NO_DISPLAY, "eglGetPlatformDisplayEXT");

@@ -99,7 +99,7 @@ std::string report(const std::vector<Measurement>& measurements, const Surroundi
     std::string text;
     if (!measurements.empty()) {
         text =
-            fmt::format("{}, {} priority, {} rounds. {}. {}.\n\n", surroundings.processor,
+            fmt::format("{}, {} priority, rounds: {}. {}. {}.\n\n", surroundings.processor,
                         surroundings.realtime ? "real-time" : "ordinary", surroundings.rounds,
                         measurements.front().burnish.renderer, measurements.front().peer.renderer);
     }
