@@ -62,6 +62,7 @@ Agreement compare(const Framebuffer& first, const Framebuffer& second, const Fra
         for (int x = 0; x < first.width(); ++x) {
             const bool here = covered(first, x, y);
             if (here) ++agreement.covered;
+            if (here && on_silhouette(first, x, y)) ++agreement.silhouette;
             if (here == covered(second, x, y)) continue;
             const bool edge = on_silhouette(first, x, y) && on_silhouette(second, x, y);
             ++(edge ? agreement.edge_pixels : agreement.stray_pixels);

@@ -17,14 +17,17 @@ Framebuffer picture_of(const PeerScene& scene, const FrameBytes& bytes);
 /// Two pictures of one scene beside each other, and beside the one in double precision.
 struct Agreement {
     std::size_t covered = 0;        ///< pixels of the first
+    std::size_t silhouette = 0;     ///< of these, those beside pixels that are not
     std::size_t edge_pixels = 0;    ///< covered in one only, within a pixel of both silhouettes
     std::size_t stray_pixels = 0;   ///< covered in one only, farther in or out
     double rmse = 0.0, bias = 0.0;  ///< first against second, over interior pixels
     std::optional<double> first_rmse, second_rmse;  ///< against the double-precision picture
 
-    /// Same coverage but for edge pixels, and an RMSE within `largest_rmse`.
+    /// Same coverage but for edge pixels, a tenth of the silhouette at most, since half a pixel
+    /// aside would be a quarter; and an RMSE within `largest_rmse`.
     [[nodiscard]] bool holds(double largest_rmse) const {
-        return stray_pixels == 0 && covered > 0 && rmse <= largest_rmse;
+        return covered > 0 && stray_pixels == 0 && 10 * edge_pixels <= silhouette &&
+               rmse <= largest_rmse;
     }
 };
 

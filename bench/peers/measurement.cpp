@@ -35,11 +35,12 @@ std::string json(const Measurement& m) {
     return fmt::format(
         "{{\"scene\": \"{}\", \"width\": {}, \"height\": {}, \"threads\": {}, \"isa\": \"{}\",\n"
         "   \"burnish\": {},\n   \"peer\": {},\n"
-        "   \"ratio\": {}, \"covered\": {}, \"edge_pixels\": {}, \"stray_pixels\": {}, "
+        "   \"ratio\": {}, \"covered\": {}, \"silhouette\": {}, \"edge_pixels\": {}, "
+        "\"stray_pixels\": {}, "
         "\"rmse\": {:.6f}, \"bias\": {:.6f}, \"burnish_rmse_double\": {}, "
         "\"peer_rmse_double\": {}}}",
         m.scene, m.width, m.height, m.threads, m.isa, times_json(m.burnish), times_json(m.peer),
-        ratio, a.covered, a.edge_pixels, a.stray_pixels, a.rmse, a.bias,
+        ratio, a.covered, a.silhouette, a.edge_pixels, a.stray_pixels, a.rmse, a.bias,
         optional_number(a.first_rmse, "null"), optional_number(a.second_rmse, "null"));
 }
 
@@ -84,10 +85,11 @@ std::string json(const std::vector<Measurement>& measurements, const Surrounding
 }
 
 std::string table_line(const Measurement& m) {
-    const std::string ratio =
-        m.agree ? fmt::format("**{:.2f}** ({:.2f} .. {:.2f})", m.ratio(), m.least_ratio(),
-                              m.most_ratio())
-                : fmt::format("pictures differ, {} stray pixels", m.agreement.stray_pixels);
+    const std::string ratio = m.agree
+                                  ? fmt::format("**{:.2f}** ({:.2f} .. {:.2f})", m.ratio(),
+                                                m.least_ratio(), m.most_ratio())
+                                  : fmt::format("pictures differ: {} edge pixels, {} stray",
+                                                m.agreement.edge_pixels, m.agreement.stray_pixels);
     return fmt::format("| {}{} | {} x {} | {} | {} | {} | {} | {:.5f} | {} | {} |\n", m.scene,
                        m.isa.empty() ? "" : ", " + m.isa, m.width, m.height, m.threads,
                        times_cell(m.burnish), times_cell(m.peer), ratio, m.agreement.rmse,

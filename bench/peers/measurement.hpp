@@ -23,9 +23,10 @@ struct Measurement {
     std::string scene;
     int width = 0, height = 0;
     int threads = 0;
-    std::string isa;  ///< that was asked for; empty: the best
-    Times burnish, peer;
-    Agreement agreement;
+    std::string isa;         ///< that was asked for; empty: the best
+    float intensity = 1.0F;  ///< of the light
+    Times burnish{}, peer{};
+    Agreement agreement{};
     bool agree = false;
 
     /// The peer's time over burnish's: of the medians; the least and the most of the rounds, in

@@ -105,15 +105,15 @@ class Runner {
     [[nodiscard]] bool realtime() const { return !m_prefix.empty(); }
 
     /// One process; its median frame goes to `times`. `picture`: where its last frame goes.
-    void run(const std::string& contender, const Measurement& m, float intensity,
-             const fs::path& picture, Times& times) const {
+    void run(const std::string& contender, const Measurement& m, const fs::path& picture,
+             Times& times) const {
         std::vector<std::string> command = m_prefix;
         // One thread means one core: llvmpipe's main thread works, too.
         if (m.threads == 1) command.insert(command.end(), {"taskset", "-c", "0"});
         command.insert(command.end(),
                        {m_program, contender, m.scene, "--width", std::to_string(m.width),
                         "--height", std::to_string(m.height), "--threads",
-                        std::to_string(m.threads), "--intensity", fmt::format("{}", intensity),
+                        std::to_string(m.threads), "--intensity", fmt::format("{}", m.intensity),
                         "--seconds", fmt::format("{}", m_options.seconds), "--picture", picture});
         std::vector<double> frames;
         for (const std::string& line : output_of(command)) {
@@ -139,24 +139,47 @@ Framebuffer load_picture(const PeerScene& scene, const fs::path& path) {
     return picture_of(scene, bytes);
 }
 
-Measurement measure(const Exposed& exposed, int threads, const std::string& isa,
-                    const Runner& runner, const Options& options) {
-    Measurement m;
-    m.scene = exposed.scene.name;
-    m.width = exposed.scene.scene.width;
-    m.height = exposed.scene.scene.height;
-    m.threads = threads;
-    m.isa = isa;
-    if (!isa.empty()) setenv("BURNISH_ISA", isa.c_str(), 1);
-    const fs::path ours = options.output / "burnish.raw", theirs = options.output / "llvmpipe.raw";
-    for (int round = 0; round < options.rounds; ++round) {
-        runner.run("burnish", m, exposed.intensity, ours, m.burnish);
-        runner.run("llvmpipe", m, exposed.intensity, theirs, m.peer);
+/// The two frames that a round leaves.
+struct Pictures {
+    explicit Pictures(const fs::path& folder)
+        : burnish(folder / "burnish.raw"), peer(folder / "llvmpipe.raw") {}
+    fs::path burnish, peer;
+};
+
+/// One process of each.
+void take_turns(Measurement& m, const Runner& runner, const Pictures& pictures) {
+    if (m.isa.empty()) {
+        unsetenv("BURNISH_ISA");
+    } else {
+        setenv("BURNISH_ISA", m.isa.c_str(), 1);
     }
-    m.agreement = compare(load_picture(exposed.scene, ours), load_picture(exposed.scene, theirs),
-                          exposed.truth ? &*exposed.truth : nullptr);
-    m.agree = m.agreement.holds(largest_rmse(exposed.scene.shading));
-    return m;
+    runner.run("burnish", m, pictures.burnish, m.burnish);
+    runner.run("llvmpipe", m, pictures.peer, m.peer);
+    fmt::print(stderr, "{} {} x {} {}, threads {}: {:.2f} and {:.2f} ms\n", m.scene, m.width,
+               m.height, m.isa, m.threads, m.burnish.rounds.back(), m.peer.rounds.back());
+}
+
+/// The first round of everything, and what the pictures are like.
+std::vector<Measurement> first_round(const Options& options, const Runner& runner,
+                                     const Pictures& pictures) {
+    std::vector<Measurement> all;
+    for (const std::string& name : options.scenes) {
+        for (const Size size : options.sizes.empty() ? sizes_of(name) : options.sizes) {
+            const Exposed exposed = expose(name, size);
+            for (const std::string& isa : options.isas) {
+                for (const int threads : options.threads) {
+                    Measurement m{name, size.width, size.height, threads, isa, exposed.intensity};
+                    take_turns(m, runner, pictures);
+                    m.agreement = compare(load_picture(exposed.scene, pictures.burnish),
+                                          load_picture(exposed.scene, pictures.peer),
+                                          exposed.truth ? &*exposed.truth : nullptr);
+                    m.agree = m.agreement.holds(largest_rmse(exposed.scene.shading));
+                    all.push_back(std::move(m));
+                }
+            }
+        }
+    }
+    return all;
 }
 
 void write(const fs::path& path, const std::string& text) {
@@ -184,29 +207,21 @@ Size size_from(const std::string& word) {
         fmt::format("size '{}', expected WIDTHxHEIGHT, 1 .. {}", word, Framebuffer::kMaxSize));
 }
 
-/// Returns whether all pictures agree.
+/// Returns whether all pictures agree. A machine may be slow for minutes, so a round is everything
+/// once, and rounds of one scene lie far apart.
 bool run(const Options& options, const fs::path& program) {
     fs::create_directories(options.output);
+    const Pictures pictures(options.output);
     const Runner runner(program.parent_path() / "peer_frames", options);
+    std::vector<Measurement> all = first_round(options, runner, pictures);
+    for (int round = 1; round < options.rounds; ++round)
+        for (Measurement& m : all) take_turns(m, runner, pictures);
     const Surroundings surroundings{processor(), runner.realtime(), options.rounds};
-    std::vector<Measurement> all;
-    for (const std::string& name : options.scenes) {
-        for (const Size size : options.sizes.empty() ? sizes_of(name) : options.sizes) {
-            const Exposed exposed = expose(name, size);
-            for (const std::string& isa : options.isas) {
-                for (const int threads : options.threads) {
-                    all.push_back(measure(exposed, threads, isa, runner, options));
-                    fmt::print(
-                        "{}", all.size() == 1 ? report(all, surroundings) : table_line(all.back()));
-                    std::fflush(stdout);
-                    write(options.output / "peers.json", json(all, surroundings));
-                    write(options.output / "peers.md", report(all, surroundings));
-                }
-            }
-        }
-    }
-    if (!options.document.empty())
-        lab::replace_section(options.document, "peers", report(all, surroundings));
+    const std::string text = report(all, surroundings);
+    fmt::print("{}", text);
+    write(options.output / "peers.json", json(all, surroundings));
+    write(options.output / "peers.md", text);
+    if (!options.document.empty()) lab::replace_section(options.document, "peers", text);
     return std::ranges::all_of(all, &Measurement::agree);
 }
 
