@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace burnish::peers {
 
@@ -98,13 +99,12 @@ std::string table_line(const Measurement& m) {
 }
 
 std::string report(const std::vector<Measurement>& measurements, const Surroundings& surroundings) {
-    std::string text;
-    if (!measurements.empty()) {
-        text =
-            fmt::format("{}, {} priority, rounds: {}. {}. {}.\n\n", surroundings.processor,
-                        surroundings.realtime ? "real-time" : "ordinary", surroundings.rounds,
-                        measurements.front().burnish.renderer, measurements.front().peer.renderer);
-    }
+    std::set<std::string> renderers;
+    for (const Measurement& m : measurements)
+        renderers.insert({m.burnish.renderer, m.peer.renderer});
+    std::string text = fmt::format("{}, {} priority, rounds: {}. {}.\n\n", surroundings.processor,
+                                   surroundings.realtime ? "real-time" : "ordinary",
+                                   surroundings.rounds, fmt::join(renderers, "; "));
     text +=
         "| scene | size | threads | burnish, ms | llvmpipe, ms | ratio | RMSE between | burnish "
         "to double | llvmpipe to double |\n|---|---|---|---|---|---|---|---|---|\n";
