@@ -34,15 +34,16 @@ std::string json(const Measurement& m) {
                             m.ratio(), m.least_ratio(), m.most_ratio());
     }
     return fmt::format(
-        "{{\"scene\": \"{}\", \"width\": {}, \"height\": {}, \"threads\": {}, \"isa\": \"{}\",\n"
+        "{{\"scene\": \"{}\", \"width\": {}, \"height\": {}, \"threads\": {}, \"isa\": \"{}\", "
+        "\"intensity\": {},\n"
         "   \"burnish\": {},\n   \"peer\": {},\n"
         "   \"ratio\": {}, \"covered\": {}, \"silhouette\": {}, \"edge_pixels\": {}, "
         "\"stray_pixels\": {}, "
         "\"rmse\": {:.6f}, \"bias\": {:.6f}, \"burnish_rmse_double\": {}, "
         "\"peer_rmse_double\": {}}}",
-        m.scene, m.width, m.height, m.threads, m.isa, times_json(m.burnish), times_json(m.peer),
-        ratio, a.covered, a.silhouette, a.edge_pixels, a.stray_pixels, a.rmse, a.bias,
-        optional_number(a.first_rmse, "null"), optional_number(a.second_rmse, "null"));
+        m.scene, m.width, m.height, m.threads, m.isa, m.intensity, times_json(m.burnish),
+        times_json(m.peer), ratio, a.covered, a.silhouette, a.edge_pixels, a.stray_pixels, a.rmse,
+        a.bias, optional_number(a.first_rmse, "null"), optional_number(a.second_rmse, "null"));
 }
 
 std::string times_cell(const Times& times) {

@@ -248,7 +248,7 @@ PeerScene peer_scene(std::string_view name, int width, int height, float intensi
     // The same part of the frame at every resolution, whatever its sides.
     peer.scene.camera.projection =
         glm::perspective(glm::radians(45.0F), 16.0F / 9.0F, 0.1F, 100.0F);
-    peer.scene.lights.push_back({.position = {0.3F, 0.5F, 0.8F}, .intensity = intensity});
+    peer.scene.lights.push_back({.position = {0.3F, 0.3F, 0.9F}, .intensity = intensity});
     found->fill(peer);
     return peer;
 }
