@@ -134,6 +134,7 @@ ModelMeasurement measure_model(Model model, std::string_view machine,
         measured.errors = frame_errors(got, want);
         if (parameters.shift_variant && scene.machine.numbers == NumberModel::wide)
             measured.on_its_grid = frame_errors(got, in_double(scene, true));
+        measured.estimate = estimate_error(material, scene.machine);
     } catch (const Error& error) {
         measured.refusal = error.what();
     }

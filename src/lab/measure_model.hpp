@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lab/frame_errors.hpp"
+#include "models/error_estimate.hpp"
 
 /// Reflectance models on machines against the same formulas in double precision. What is measured
 /// and how: docs/models.md, "What machines make of them".
@@ -54,6 +55,7 @@ struct ModelMeasurement {
     /// Against the double picture with the machine's corners and texel coordinates; of parameters
     /// that vary, on wide machines.
     std::optional<FrameErrors> on_its_grid;
+    ErrorEstimate estimate;  ///< without the picture
 };
 
 /// One cell of the table; on this thread alone.

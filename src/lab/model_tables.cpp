@@ -90,6 +90,36 @@ std::string everything(std::span<const ModelMeasurement> measurements, const std
     return text;
 }
 
+/// Where the estimates of one kind lie, as parts of what was measured: least, median, largest.
+std::string ratios(std::vector<double> ratio) {
+    std::sort(ratio.begin(), ratio.end());
+    return fmt::format("{:.2f}, {:.2f}, {:.1f}", ratio.front(), ratio[ratio.size() / 2],
+                       ratio.back());
+}
+
+/// Whether estimates bound what they are for.
+std::string estimates(std::span<const ModelMeasurement> measurements,
+                      const std::vector<std::string>& machines) {
+    std::string text =
+        "| machine | pictures | RMSE within rms | rms / RMSE | P99 within largest | largest / P99 "
+        "|\n|---|---|---|---|---|---|\n";
+    for (const std::string& machine : machines) {
+        std::vector<double> rms, largest;
+        std::size_t within_rms = 0, within_largest = 0;
+        for (const ModelMeasurement& m : measurements) {
+            if (m.machine != machine || !m.refusal.empty()) continue;
+            rms.push_back(m.estimate.rms / m.errors.rmse);
+            largest.push_back(m.estimate.largest / m.errors.p99);
+            within_rms += m.errors.rmse <= m.estimate.rms ? 1 : 0;
+            within_largest += m.errors.p99 <= m.estimate.largest ? 1 : 0;
+        }
+        if (rms.empty()) continue;
+        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", machine, rms.size(), within_rms,
+                            ratios(rms), within_largest, ratios(largest));
+    }
+    return text;
+}
+
 /// A message once for all models and parameters that it stands for.
 std::string refusals(std::span<const ModelMeasurement> measurements) {
     std::map<std::string, std::string> refused;  // by "model on machine": the first message
@@ -135,6 +165,8 @@ std::string model_tables(std::span<const ModelMeasurement> measurements,
     text += fmt::format("\nOn {}, generated sets, against its corners and texel coordinates:\n\n{}",
                         machines.back(),
                         everything(measurements, machines.back(), models, sets, Against::its_grid));
+    text += "\nError estimates, and what they bound; ratios: least, median, largest:\n\n" +
+            estimates(measurements, machines);
     if (const std::string no = refusals(measurements); !no.empty())
         text += "\n\"no\", at its first place:\n\n" + no;
     return text;
@@ -153,8 +185,10 @@ std::string model_json(std::span<const ModelMeasurement> measurements) {
         const FrameErrors& e = m.errors;
         text += fmt::format(
             "\"passes\": {}, \"units\": {}, \"stages\": {}, \"pixels\": {}, \"rmse\": {:.6f}, "
-            "\"p99\": {:.6f}, \"largest\": {:.6f}, \"bias\": {:.6f}, \"step_excess\": {:.6f}}}",
-            m.passes, m.units, m.stages, e.pixels, e.rmse, e.p99, e.largest, e.bias, e.step_excess);
+            "\"p99\": {:.6f}, \"largest\": {:.6f}, \"bias\": {:.6f}, \"step_excess\": {:.6f}, "
+            "\"estimated_rms\": {:.6f}, \"estimated_largest\": {:.6f}}}",
+            m.passes, m.units, m.stages, e.pixels, e.rmse, e.p99, e.largest, e.bias, e.step_excess,
+            m.estimate.rms, m.estimate.largest);
     }
     return text + "\n]\n";
 }

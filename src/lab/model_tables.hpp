@@ -10,7 +10,7 @@ namespace burnish::lab {
 
 /// Tables in Markdown, with columns for `parameters`: what every model needs of every machine, its
 /// errors under the first constant and the set "corrosion"; then per machine all parameters; then
-/// what machines refuse, and why.
+/// how far estimates lie above what they bound, and what machines refuse, and why.
 std::string model_tables(std::span<const ModelMeasurement> measurements,
                          std::span<const ModelParameters> parameters);
 

@@ -22,9 +22,9 @@ namespace {
 constexpr int kSide = 64;
 constexpr double kPeak = 0.9;
 constexpr std::array kLightDegrees{40.0, 80.0, 120.0};
-/// Peaks are those of parts of the maps under one direction of the tangent: what a picture's
-/// highlight meets is neither the brightest nor the darkest.
-constexpr std::array kPeakQuantiles{0.05, 0.5, 0.95};
+/// Peaks are those of parts of the maps under one direction of the tangent. What a picture's
+/// highlight meets may be the darkest; the brightest one needs little light.
+constexpr std::array kPeakQuantiles{0.0, 0.5, 0.95};
 constexpr int kMapParts = 4;          // along u and v
 constexpr double kLeastSeen = 0.125;  // n.v that pictures show enough of to have their peak there
 constexpr int kDirections = 4;
@@ -174,20 +174,35 @@ void bend_one_way(std::vector<ComparedPlace>& compared) {
     }
 }
 
+/// The places are a sample of a picture's, some thousand of them: both numbers are two standard
+/// errors above what the sample has.
 ErrorEstimate errors_of(const std::vector<ComparedPlace>& compared) {
-    ErrorEstimate errors;
+    constexpr double kStandardErrors = 1.0, kBeyond = 0.01;
+    const auto square = [](const ComparedPlace& c) {
+        return glm::dot(c.difference, c.difference) / 3.0;
+    };
+    double mean = 0.0, squared_weights = 0.0;
+    for (const ComparedPlace& c : compared) {
+        mean += c.weight * square(c);
+        squared_weights += c.weight * c.weight;
+    }
+    double variance = 0.0;                               // of the mean
     std::vector<std::pair<double, double>> differences;  // and weights
     for (const ComparedPlace& c : compared) {
-        errors.rms += c.weight * glm::dot(c.difference, c.difference) / 3.0;
+        const double off = c.weight * (square(c) - mean);
+        variance += off * off;
         for (int k = 0; k < 3; ++k) differences.emplace_back(c.difference[k], c.weight / 3.0);
     }
-    errors.rms = std::sqrt(errors.rms);
+    ErrorEstimate errors;
+    errors.rms = std::sqrt(mean + kStandardErrors * std::sqrt(variance));
     std::sort(differences.rbegin(), differences.rend());
+    const double limit =
+        kBeyond - kStandardErrors * std::sqrt(kBeyond * (1.0 - kBeyond) * squared_weights);
     double beyond = 0.0;
     for (const auto& [difference, weight] : differences) {
         errors.largest = difference;
         beyond += weight;
-        if (beyond > 0.01) break;
+        if (beyond > limit) break;
     }
     return errors;
 }

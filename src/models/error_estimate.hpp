@@ -21,9 +21,9 @@ struct ErrorEstimate {
 /// Draws places of surfaces with the machine and compares. Both numbers are the largest of
 /// several pictures: three angles of the light, four directions of the tangent, three
 /// intensities. In each a part of the brightest places that a sphere shows counts as the
-/// square root of it, that is as if the surface were bent one way only, as a cylinder's; a picture
-/// that shows a narrow highlight and nothing else exceeds them. docs/models.md has the ratios to
-/// what is measured.
+/// square root of it, that is as if the surface were bent one way only, as a cylinder's; and since
+/// they are samples, a standard error is added. A picture that shows a narrow highlight and
+/// nothing else exceeds them. docs/models.md has the ratios to what is measured.
 ///
 /// The same bits everywhere but for the formula's own. 0 for a machine in double precision.
 /// Throws what compile_model throws.
