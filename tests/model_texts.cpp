@@ -307,7 +307,7 @@ TEST(DoubleTextTest, OnePixelByHand) {
 
 TEST(ModelTextsTest, OneCompilerMakesTheSameOfEveryMachineAndLight) {
     Material material = generated_material("weave", 1, 16);
-    material.model = Model::abp;
+    material.model = Model::abp_modified_n4;
     ModelCompiler compiler(material);
     for (const glm::vec3 light : {glm::vec3(3.0F, 1.0F, 0.25F), glm::vec3(0.5F)}) {
         for (const char* machine : {"ideal", "nv2a", "ideal"}) {
