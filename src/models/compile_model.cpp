@@ -65,6 +65,7 @@ struct ModelCompiler::Parts {
     Material material;
     MaterialTerms terms;
     std::map<std::pair<NumberModel, TablePrice>, Cover> covers;
+    FilledTables tables;
 };
 
 Cover& ModelCompiler::Parts::cover_for(const Machine& room, const Machine& machine) {
@@ -90,7 +91,7 @@ CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Mach
     task.numbers = machine.numbers;
     task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
-    const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges());
+    const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges(), tables);
     Schedule scheduled = schedule(plan, room, machine);
     BakedTextures baked = bake(plan, scheduled, terms.texels(), machine.numbers);
 

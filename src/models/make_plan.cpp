@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "core/dmath.hpp"
-#include "models/fill_table.hpp"
 #include "models/model_needs.hpp"
 #include "models/table_domain.hpp"
 
@@ -59,8 +58,8 @@ constexpr double kAll = std::numeric_limits<double>::infinity();
 
 class Planner {
   public:
-    Planner(const PlanTask& task, Cover& cover, Ranges& ranges)
-        : m_task(task), m_cover(cover), m_ranges(ranges) {}
+    Planner(const PlanTask& task, Cover& cover, Ranges& ranges, FilledTables& tables)
+        : m_task(task), m_cover(cover), m_ranges(ranges), m_tables(tables) {}
 
     Plan make() {
         for (const Expr* e : m_cover.tables()) {
@@ -564,7 +563,7 @@ class Planner {
             t.axes.push_back(axis(*args[i], domain.arguments[i]));
             t.axes.back().name = print_expression(*args[i]);
         }
-        fill_table(t, e, args, domain.arguments, m_task.numbers);
+        m_tables.fill(t, e, args, domain.arguments, m_task.numbers);
         PlanValue v;
         v.op = PlanOp::table;
         v.index = static_cast<int>(m_plan.tables.size());
@@ -802,6 +801,7 @@ class Planner {
     const PlanTask& m_task;
     Cover& m_cover;
     Ranges& m_ranges;
+    FilledTables& m_tables;
     Plan m_plan;
     std::map<const Expr*, TableDomain, ByAge> m_domains;
     std::map<const Expr*, double, ByAge> m_reach, m_shared_units;
@@ -829,8 +829,8 @@ double PlanAxis::at(double position) const {
     return logarithmic ? dmath::exp2(low + x) : x;
 }
 
-Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges) {
-    return Planner(task, cover, ranges).make();
+Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges, FilledTables& tables) {
+    return Planner(task, cover, ranges, tables).make();
 }
 
 }  // namespace burnish
