@@ -16,14 +16,14 @@ constexpr int kWideOne = 16384;
 /// a byte.
 int texel_code(double x, NumberModel numbers) {
     x = std::clamp(x, 0.0, 1.0);
-    if (numbers == NumberModel::nine_bit) return static_cast<int>(std::floor(255.0 * x + 0.5));
-    return std::min(4 * static_cast<int>(std::floor(kWideOne * x + 0.5)), 65535);
+    if (numbers == NumberModel::nine_bit) return static_cast<int>(255.0 * x + 0.5);
+    return std::min(4 * static_cast<int>(kWideOne * x + 0.5), 65535);
 }
 
 /// A component of -1 .. 1, for `expand`.
 int vector_code(double x, NumberModel numbers) {
     if (numbers == NumberModel::wide) return texel_code(0.5 * x + 0.5, numbers);
-    return static_cast<int>(std::clamp(std::floor(127.5 * x + 128.0), 0.0, 255.0));
+    return static_cast<int>(std::clamp(127.5 * x + 128.0, 0.0, 255.0));
 }
 
 /// Channels of a texture, whichever texels it has.

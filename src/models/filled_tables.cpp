@@ -96,14 +96,8 @@ class Filler {
             at.push_back(within(own, a.argument(j + 1)));
             at.push_back(within(own, a.between(j)));
         }
-        std::vector<double> others;
-        if (is_2d()) {
-            PlanAxis other = m_table.axes[1 - own];
-            other.size = kOthers;
-            others = arguments(1 - own, other);
-        }
         double error = 0.0;
-        rows(own, at, others, [&](std::size_t, std::span<const double> values) {
+        rows(own, at, others_of(own), [&](std::size_t, std::span<const double> values) {
             double left = values[0];
             for (std::size_t j = 1; j < values.size(); j += 2) {
                 const double right = values[j];
@@ -115,25 +109,53 @@ class Filler {
         return error;
     }
 
+    /// The same for the peak alone.
+    void look_along(std::size_t own, int size) {
+        PlanAxis a = m_table.axes[own];
+        a.size = size;
+        rows(own, arguments(own, a), others_of(own),
+             [&](std::size_t, std::span<const double> values) {
+                 for (const double v : values) m_peak = std::max(m_peak, std::abs(v));
+             });
+    }
+
+    /// Of the other argument: values at which a table is looked at.
+    [[nodiscard]] std::vector<double> others_of(std::size_t own) const {
+        if (!is_2d()) return {};
+        PlanAxis other = m_table.axes[1 - own];
+        other.size = kOthers;
+        return arguments(1 - own, other);
+    }
+
     /// Of the shapes that are fine enough the smallest; if none is, the best.
     void choose_sizes() {
-        std::map<int, std::array<double, 2>> errors;
-        for (int size = kFinest2d / kFinest1d; size <= kFinest1d; size *= 2)
-            errors[size] = {error_along(0, size), error_along(1, size)};
+        // Beyond an axis's first size that is fine no shape is better.
+        std::array<std::map<int, double>, 2> errors;
+        std::array<bool, 2> fine{};
+        for (int size = kFinest2d / kFinest1d; size <= kFinest1d; size *= 2) {
+            for (const std::size_t own : {std::size_t{0}, std::size_t{1}}) {
+                if (fine[own]) {
+                    look_along(own, size);
+                    continue;
+                }
+                errors[own][size] = error_along(own, size);
+                fine[own] = errors[own][size] <= kFine * m_peak;
+            }
+        }
         const auto score = [&](int x, int y) {
-            const double error = std::max(errors[x][0], errors[y][1]);
+            const double error = std::max(errors[0][x], errors[1][y]);
             return std::pair(std::max(error, kFine * m_peak), x * y);
         };
         std::pair<int, int> best{64, 64};
-        for (const auto& [x, unused_x] : errors) {
-            for (const auto& [y, unused_y] : errors) {
+        for (const auto& [x, unused_x] : errors[0]) {
+            for (const auto& [y, unused_y] : errors[1]) {
                 if (x * y <= kFinest2d && score(x, y) < score(best.first, best.second))
                     best = {x, y};
             }
         }
         m_table.axes[0].size = best.first;
         m_table.axes[1].size = best.second;
-        m_table.interpolation = std::max(errors[best.first][0], errors[best.second][1]);
+        m_table.interpolation = std::max(errors[0][best.first], errors[1][best.second]);
     }
 
     void write_texels() {
@@ -141,6 +163,8 @@ class Filler {
         t.unit = m_peak;
         std::vector<double> others;
         if (is_2d()) others = arguments(1, t.axes[1]);
+        t.values.reserve(static_cast<std::size_t>(t.axes[0].size) *
+                         std::max(others.size(), std::size_t{1}));
         rows(0, arguments(0, t.axes[0]), others, [&](std::size_t, std::span<const double> values) {
             for (const double f : values) {
                 t.values.push_back(f / t.unit);

@@ -29,25 +29,30 @@ std::vector<const Expr*> definitions_of(const std::vector<const Expr*>& quantiti
     return definitions;
 }
 
-glm::dvec3 parameter(const std::string& name, const TexelParameters& p) {
-    if (name == "n") return p.n;
-    if (name == "t") return p.t;
-    if (name == "b") return p.b;
-    if (name == "alpha_x") return glm::dvec3(p.alpha_x);
-    if (name == "alpha_y") return glm::dvec3(p.alpha_y);
-    if (name == "N") return glm::dvec3(p.exponent);
-    return name == "ks" ? p.ks : p.kd;
+using Read = glm::dvec3 (*)(const TexelParameters&);
+
+/// How a leaf is read.
+Read reader_of(const std::string& name) {
+    if (name == "n") return [](const TexelParameters& p) { return p.n; };
+    if (name == "t") return [](const TexelParameters& p) { return p.t; };
+    if (name == "b") return [](const TexelParameters& p) { return p.b; };
+    if (name == "alpha_x") return [](const TexelParameters& p) { return glm::dvec3(p.alpha_x); };
+    if (name == "alpha_y") return [](const TexelParameters& p) { return glm::dvec3(p.alpha_y); };
+    if (name == "N") return [](const TexelParameters& p) { return glm::dvec3(p.exponent); };
+    if (name == "ks") return [](const TexelParameters& p) { return p.ks; };
+    return [](const TexelParameters& p) { return p.kd; };
 }
 
 }  // namespace
 
 TexelTape::TexelTape(const std::vector<const Expr*>& quantities)
-    : m_leaves(parameters_of(quantities)), m_tape(definitions_of(quantities), m_leaves) {}
+    : m_tape(definitions_of(quantities), parameters_of(quantities)) {
+    for (const Expr* leaf : parameters_of(quantities)) m_readers.push_back(reader_of(leaf->name));
+}
 
 void TexelTape::run(const TexelParameters& texel, glm::dvec3* values) {
     glm::dvec3 leaves[8];
-    for (std::size_t i = 0; i < m_leaves.size(); ++i)
-        leaves[i] = parameter(m_leaves[i]->name, texel);
+    for (std::size_t i = 0; i < m_readers.size(); ++i) leaves[i] = m_readers[i](texel);
     m_tape.run(leaves, values);
 }
 

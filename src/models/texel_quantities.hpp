@@ -16,7 +16,7 @@ class TexelTape {
     void run(const TexelParameters& texel, glm::dvec3* values);
 
   private:
-    std::vector<const Expr*> m_leaves;
+    std::vector<glm::dvec3 (*)(const TexelParameters&)> m_readers;  ///< of the tape's inputs
     Tape m_tape;
 };
 
