@@ -62,7 +62,7 @@ TEST(TableFunctionTest, HasTheBitsOfTheTape) {
         const ExprPtr x = builder.leaf("n_dot_l"), y = builder.leaf("h_dot_l");
         Tape tape({value.get()}, {x.get(), y.get()});
         TableFunction function(*value, {x.get(), y.get()});
-        for (const std::size_t own : {0, 1}) {
+        for (const std::size_t own : {std::size_t{0}, std::size_t{1}}) {
             std::size_t count = 0, wrong = 0;
             function.rows(own, along, across, [&](std::size_t j, std::span<const double> values) {
                 for (std::size_t i = 0; i < values.size(); ++i, ++count) {

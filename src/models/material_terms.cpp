@@ -44,7 +44,8 @@ void include_row(QuantityValues& v, const TexelQuantities& texels, const Expr& q
         v.somewhere = v.low = v.high = value_at(texels, q, 0);
         v.shortest = v.longest = std::sqrt(glm::dot(v.low, v.low));
     }
-    for (int c = 0; c < 3; ++c) {
+    const bool is_scalar = q.kind == ValueKind::scalar;
+    for (int c = 0; c < (is_scalar ? 1 : 3); ++c) {
         double low = v.low[c], high = v.high[c];
         for (const double x : texels.component(q, c)) {
             low = std::min(low, x);
@@ -52,6 +53,10 @@ void include_row(QuantityValues& v, const TexelQuantities& texels, const Expr& q
         }
         v.low[c] = low;
         v.high[c] = high;
+    }
+    if (is_scalar) {
+        v.low = glm::dvec3(v.low.x);
+        v.high = glm::dvec3(v.high.x);
     }
     if (q.kind != ValueKind::vector) return;
     const std::span<const double> a = texels.component(q, 0), b = texels.component(q, 1),
