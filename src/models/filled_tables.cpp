@@ -211,9 +211,13 @@ void FilledTables::fill(PlanTable& table, const Expr& function,
             last.args == args && last.domain == domain && last.numbers == numbers &&
             std::equal(table.axes.begin(), table.axes.end(), last.table.axes.begin(), same_axis);
         if (same) return copy_texels(last.table, table);
+        m_kept -= last.table.values.size();
+        m_last.erase(at);
     }
     Filler(table, function, args, domain).fill(numbers);
-    m_last.insert_or_assign(&function, Entry{args, domain, numbers, table});
+    if (m_kept + table.values.size() > kMostKept) return;
+    m_kept += table.values.size();
+    m_last.emplace(&function, Entry{args, domain, numbers, table});
 }
 
 }  // namespace burnish
