@@ -305,6 +305,33 @@ TEST(DoubleTextTest, OnePixelByHand) {
     EXPECT_NEAR(red_of("h_dot_l", machine), 0.5 * 0.9, 1e-7);  // 0.3 * 0.6 + 0.9 * 0.8
 }
 
+TEST(ModelTextsTest, OneCompilerMakesTheSameOfEveryMachineAndLight) {
+    Material material = generated_material("weave", 1, 16);
+    material.model = Model::abp_modified_n4;
+    ModelCompiler compiler(material);
+    for (const glm::vec3 light : {glm::vec3(3.0F, 1.0F, 0.25F), glm::vec3(0.5F)}) {
+        for (const char* machine : {"ideal", "nv2a", "ideal"}) {
+            Machine profile = machine_profile(machine);
+            profile.multipass = true;
+            const CompiledModel again = compiler.compile(profile, light, glm::vec3(0.0F));
+            const CompiledModel fresh = compile_model(material, profile, light, glm::vec3(0.0F));
+            EXPECT_EQ(again.program.combiners, fresh.program.combiners) << machine;
+            ASSERT_EQ(again.program.units.size(), fresh.program.units.size());
+            for (std::size_t i = 0; i < fresh.program.units.size(); ++i) {
+                const TexturePtr& a = again.program.units[i];
+                const TexturePtr& b = fresh.program.units[i];
+                ASSERT_EQ(a == nullptr, b == nullptr);
+                if (!a) continue;
+                ASSERT_EQ(a->width(), b->width());
+                for (int y = 0; y < a->height(); ++y) {
+                    for (int x = 0; x < a->width(); ++x)
+                        ASSERT_EQ(a->texel(0, 0, x, y, 0), b->texel(0, 0, x, y, 0)) << machine;
+                }
+            }
+        }
+    }
+}
+
 TEST(ModelTextsTest, TablesWithoutBoundsAreRefusedWithTheirPlace) {
     const auto complaint = [](const char* text, const char* machine = "ideal") {
         Material material = *material_of(Model::text, text);

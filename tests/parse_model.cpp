@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <burnish/materials.hpp>
+#include <cstdint>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "models/model_texts.hpp"
 #include "models/parse_model.hpp"
+#include "models/table_function.hpp"
 #include "models/terms.hpp"
 
 namespace burnish {
@@ -38,6 +42,43 @@ double value_of(std::string_view text) {
     glm::dvec3 value;
     tape.run(inputs.data(), &value);
     return value.x;
+}
+
+/// Texts whose value depends on both arguments, on one alone or on none, with every operation; of
+/// more places than one block has.
+TEST(TableFunctionTest, HasTheBitsOfTheTape) {
+    const char* texts[] = {
+        "exp(-n_dot_l / max(1e-3, h_dot_l^2)) * sqrt(n_dot_l - h_dot_l^3) + pow(n_dot_l, h_dot_l)",
+        "min(n_dot_l, h_dot_l^1.5) / h_dot_l - max(0.3, 2 * n_dot_l)",
+        "pow(n_dot_l - 0.5, 0 - n_dot_l)",
+        "exp(h_dot_l) - 0.25",
+        "0.75",
+        "h_dot_l"};
+    std::vector<double> along, across{0.0, 0.25, 0.7, 1.0};
+    for (int i = 0; i <= 300; ++i) along.push_back(i / 300.0);
+    for (const char* text : texts) {
+        ExprBuilder builder;
+        const ExprPtr value = *parse_model(text, builder).program;
+        const ExprPtr x = builder.leaf("n_dot_l"), y = builder.leaf("h_dot_l");
+        Tape tape({value.get()}, {x.get(), y.get()});
+        TableFunction function(*value, {x.get(), y.get()});
+        for (const std::size_t own : {std::size_t{0}, std::size_t{1}}) {
+            std::size_t count = 0, wrong = 0;
+            function.rows(own, along, across, [&](std::size_t j, std::span<const double> values) {
+                for (std::size_t i = 0; i < values.size(); ++i, ++count) {
+                    std::array<glm::dvec3, 2> at;
+                    at[own] = glm::dvec3(along[i]);
+                    at[1 - own] = glm::dvec3(across[j]);
+                    glm::dvec3 want;
+                    tape.run(at.data(), &want);
+                    wrong += std::bit_cast<std::uint64_t>(values[i]) !=
+                             std::bit_cast<std::uint64_t>(want.x);
+                }
+            });
+            EXPECT_EQ(count, along.size() * across.size()) << text;
+            EXPECT_EQ(wrong, 0U) << text << ", along argument " << own;
+        }
+    }
 }
 
 TEST(ParseModelTest, ErrorsSayWhereWhatAndWhatWasExpected) {

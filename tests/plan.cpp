@@ -100,7 +100,8 @@ struct Planned {
         task.light = kLight;
         task.ambient = kAmbient;
         task.numbers = numbers;
-        plan = make_plan(task, cover, ranges);
+        FilledTables tables;
+        plan = make_plan(task, cover, ranges, tables);
     }
 
   private:

@@ -4,11 +4,17 @@
 #include <burnish/error.hpp>
 #include <burnish/materials.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <memory>
 #include <span>
+#include <vector>
+
+#include "models/model_texts.hpp"
+#include "models/terms.hpp"
+#include "models/texel_quantities.hpp"
 
 namespace burnish {
 namespace {
@@ -226,6 +232,38 @@ TEST(Texel, BrushedSteelHasTheWidthsThatItsMapsSay) {
         EXPECT_GT(p.alpha_y, 0.54);
         EXPECT_LT(p.alpha_y, 1.0);
         EXPECT_GT(p.t.x, 0.95) << "marks run along u";
+    }
+}
+
+/// Whether rows are kept or not, and in whatever order they are asked for.
+TEST(Texel, QuantitiesOfARowAreThoseOfItsTexels) {
+    Material m = generated_material("orbital", 1, 16);
+    m.model = Model::ward;
+    const TexelSource source(m);
+    ExprBuilder builder;
+    const ExprPtr value = model_expression(m, builder);
+    const std::vector<const Expr*> quantities = quantities_of(*value);
+    TexelTape tape(quantities);
+    std::vector<glm::dvec3> want(quantities.size());
+    for (const std::size_t most_kept : {std::size_t{0}, std::size_t{5000}, std::size_t{1} << 20}) {
+        TexelQuantities texels(quantities, source, most_kept);
+        for (const int y : {9, 0, 15, 9, 1, 0}) {
+            texels.seek(y);
+            double tilt = 0.0;
+            for (int x = 0; x < source.width(); ++x) {
+                const TexelParameters p = source.at(x, y);
+                tilt = std::max({tilt, std::abs(p.n.x), std::abs(p.n.y)});
+                tape.run(p, want.data());
+                for (std::size_t i = 0; i < quantities.size(); ++i) {
+                    for (int c = 0; c < 3; ++c) {
+                        ASSERT_EQ(texels.component(*quantities[i], c)[static_cast<std::size_t>(x)],
+                                  want[i][c])
+                            << quantities[i]->name << " at " << x << ", " << y;
+                    }
+                }
+            }
+            EXPECT_EQ(texels.tilt(), tilt);
+        }
     }
 }
 

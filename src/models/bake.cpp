@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <span>
 
 #include "core/dmath.hpp"
 
@@ -12,47 +12,18 @@ namespace {
 
 constexpr int kWideOne = 16384;
 
-/// Parameters that quantities are made of.
-std::vector<const Expr*> parameters_of(const std::vector<const Expr*>& quantities) {
-    std::vector<const Expr*> found;
-    std::set<const Expr*, ByAge> seen;
-    const auto visit = [&](const auto& self, const Expr& e) -> void {
-        if (!seen.insert(&e).second) return;
-        if (e.op == ExprOp::parameter) found.push_back(&e);
-        for (const ExprPtr& arg : e.args) self(self, *arg);
-    };
-    for (const Expr* q : quantities) visit(visit, *q);
-    return found;
-}
-
-std::vector<const Expr*> definitions_of(const std::vector<const Expr*>& quantities) {
-    std::vector<const Expr*> definitions;
-    for (const Expr* q : quantities) definitions.push_back(q->args.front().get());
-    return definitions;
-}
-
-glm::dvec3 parameter(const std::string& name, const TexelParameters& p) {
-    if (name == "n") return p.n;
-    if (name == "t") return p.t;
-    if (name == "b") return p.b;
-    if (name == "alpha_x") return glm::dvec3(p.alpha_x);
-    if (name == "alpha_y") return glm::dvec3(p.alpha_y);
-    if (name == "N") return glm::dvec3(p.exponent);
-    return name == "ks" ? p.ks : p.kd;
-}
-
 /// A number of 0 .. 1 as a texel's word, whose code in a wide register is as near as can be, or as
 /// a byte.
 int texel_code(double x, NumberModel numbers) {
     x = std::clamp(x, 0.0, 1.0);
-    if (numbers == NumberModel::nine_bit) return static_cast<int>(std::floor(255.0 * x + 0.5));
-    return std::min(4 * static_cast<int>(std::floor(kWideOne * x + 0.5)), 65535);
+    if (numbers == NumberModel::nine_bit) return static_cast<int>(255.0 * x + 0.5);
+    return std::min(4 * static_cast<int>(kWideOne * x + 0.5), 65535);
 }
 
 /// A component of -1 .. 1, for `expand`.
 int vector_code(double x, NumberModel numbers) {
     if (numbers == NumberModel::wide) return texel_code(0.5 * x + 0.5, numbers);
-    return static_cast<int>(std::clamp(std::floor(127.5 * x + 128.0), 0.0, 255.0));
+    return static_cast<int>(std::clamp(127.5 * x + 128.0, 0.0, 255.0));
 }
 
 /// Channels of a texture, whichever texels it has.
@@ -130,9 +101,16 @@ LayerQuantity description(const PlanQuantity& q, NumberModel numbers) {
     return d;
 }
 
-glm::dvec3 in_units(const PlanQuantity& q, const glm::dvec3& value) {
-    if (!q.logarithmic) return value / q.unit;
-    return glm::dvec3((dmath::log2(value.x) - q.low) / q.unit.x);
+/// Component `c` of a quantity as codes, from left to right.
+template <class Put>
+void write_row(const PlanQuantity& q, int c, std::span<const double> values, NumberModel numbers,
+               Put put) {
+    int x = 0;
+    for (const double value : values) {
+        const double v =
+            q.logarithmic ? (dmath::log2(value) - q.low) / q.unit.x : value / q.unit[c];
+        put(x++, q.kind == ValueKind::vector ? vector_code(v, numbers) : texel_code(v, numbers));
+    }
 }
 
 }  // namespace
@@ -142,48 +120,25 @@ glm::dvec3 LayerQuantity::decoded(const glm::dvec3& x) const {
     return logarithmic ? glm::dvec3(dmath::exp2(value.x)) : value;
 }
 
-TexelTape::TexelTape(const std::vector<const Expr*>& quantities)
-    : m_leaves(parameters_of(quantities)), m_tape(definitions_of(quantities), m_leaves) {}
-
-void TexelTape::run(const TexelParameters& texel, glm::dvec3* values) {
-    glm::dvec3 leaves[8];
-    for (std::size_t i = 0; i < m_leaves.size(); ++i)
-        leaves[i] = parameter(m_leaves[i]->name, texel);
-    m_tape.run(leaves, values);
-}
-
-BakedTextures bake(const Plan& plan, const Schedule& schedule, const TexelSource& source,
+BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
                    NumberModel numbers) {
+    const TexelSource& source = texels.source();
     BakedTextures baked;
     baked.units.resize(schedule.material.units.size());
-    std::vector<const Expr*> exprs;
-    for (const PlanQuantity& q : plan.quantities) exprs.push_back(q.expr);
-    TexelTape tape(exprs);
-    std::vector<glm::dvec3> values(exprs.size());
     std::vector<std::unique_ptr<TexelImage>> images(baked.units.size());
     for (const QuantityPlace& place : schedule.quantities) {
         auto& image = images[static_cast<std::size_t>(place.unit)];
         if (!image) image = std::make_unique<TexelImage>(source.width(), source.height(), numbers);
     }
     for (int y = 0; y < source.height(); ++y) {
-        for (int x = 0; x < source.width(); ++x) {
-            tape.run(source.at(x, y), values.data());
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                const PlanQuantity& q = plan.quantities[i];
-                const QuantityPlace& place = schedule.quantities[i];
-                TexelImage& image = *images[static_cast<std::size_t>(place.unit)];
-                const glm::dvec3 v = in_units(q, values[i]);
-                const bool vector = q.kind == ValueKind::vector;
-                const auto code = [&](double component) {
-                    return vector ? vector_code(component, numbers)
-                                  : texel_code(component, numbers);
-                };
-                if (place.alpha) {
-                    image.put(x, y, 3, code(v.x));
-                } else {
-                    for (int c = 0; c < 3; ++c) image.put(x, y, c, code(v[c]));
-                }
-            }
+        if (!plan.quantities.empty()) texels.seek(y);
+        for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
+            const PlanQuantity& q = plan.quantities[i];
+            const QuantityPlace& place = schedule.quantities[i];
+            TexelImage& image = *images[static_cast<std::size_t>(place.unit)];
+            for (int c = 0; c < (place.alpha ? 1 : 3); ++c)
+                write_row(q, c, texels.component(*q.expr, c), numbers,
+                          [&](int x, int code) { image.put(x, y, place.alpha ? 3 : c, code); });
         }
     }
     for (std::size_t i = 0; i < images.size(); ++i) {

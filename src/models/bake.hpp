@@ -5,7 +5,7 @@
 #include "models/layer.hpp"
 #include "models/plan.hpp"
 #include "models/schedule.hpp"
-#include "models/texel.hpp"
+#include "models/texel_quantities.hpp"
 
 namespace burnish {
 
@@ -15,18 +15,8 @@ struct BakedTextures {
     std::vector<TexturePtr> units;     ///< null where a unit has none
     std::vector<LayerQuantity> layer;  ///< of the plan's quantities, in their order
 };
-BakedTextures bake(const Plan& plan, const Schedule& schedule, const TexelSource& source,
+/// @param texels  with all of the plan's quantities
+BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
                    NumberModel numbers);
-
-/// The values of `quantities` at a texel, for leaves that TexelParameters has.
-class TexelTape {
-  public:
-    explicit TexelTape(const std::vector<const Expr*>& quantities);
-    void run(const TexelParameters& texel, glm::dvec3* values);
-
-  private:
-    std::vector<const Expr*> m_leaves;
-    Tape m_tape;
-};
 
 }  // namespace burnish

@@ -6,163 +6,21 @@
 #include <burnish/error.hpp>
 #include <burnish/materials.hpp>
 #include <burnish/multipass.hpp>
-#include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "machine/material_passes.hpp"
 #include "models/bake.hpp"
-#include "models/bounds.hpp"
 #include "models/make_plan.hpp"
-#include "models/model_texts.hpp"
-#include "models/texel.hpp"
+#include "models/material_terms.hpp"
 
 namespace burnish {
 
 namespace {
 
-[[noreturn]] void fail_unbounded(const Expr& quantity, const std::string& material) {
-    const Expr& value = *quantity.args.front();
-    throw Error(ErrorCode::bad_program,
-                fmt::format("material '{}', model_text:{}:{}: {} is not finite at every texel, "
-                            "expected a bound, as max(1/32, ...)",
-                            material, value.line, value.column, print_expression(value)));
-}
-
-/// What quantities are over the texels.
-std::map<const Expr*, QuantityValues, ByAge> values_of(const std::vector<const Expr*>& quantities,
-                                                       const TexelSource& source,
-                                                       const std::string& material,
-                                                       double& most_tilt) {
-    TexelTape tape(quantities);
-    std::vector<glm::dvec3> at(quantities.size());
-    std::vector<QuantityValues> values(quantities.size());
-    most_tilt = 0.0;
-    for (int y = 0; y < source.height(); ++y) {
-        for (int x = 0; x < source.width(); ++x) {
-            const TexelParameters texel = source.at(x, y);
-            most_tilt = std::max({most_tilt, std::abs(texel.n.x), std::abs(texel.n.y)});
-            tape.run(texel, at.data());
-            const bool first = x == 0 && y == 0;
-            for (std::size_t i = 0; i < at.size(); ++i) {
-                QuantityValues& v = values[i];
-                const double length = std::sqrt(glm::dot(at[i], at[i]));
-                if (!std::isfinite(length)) fail_unbounded(*quantities[i], material);
-                if (first) v.somewhere = at[i];
-                v.low = first ? at[i] : glm::min(v.low, at[i]);
-                v.high = first ? at[i] : glm::max(v.high, at[i]);
-                v.shortest = first ? length : std::min(v.shortest, length);
-                v.longest = first ? length : std::max(v.longest, length);
-                if (length > 0.0)
-                    v.spread = glm::max(v.spread, glm::abs(at[i]) / (length * length));
-            }
-        }
-    }
-    std::map<const Expr*, QuantityValues, ByAge> result;
-    for (std::size_t i = 0; i < at.size(); ++i) result.emplace(quantities[i], values[i]);
-    return result;
-}
-
 AxisReport report_of(const PlanAxis& axis) {
     return {axis.name, axis.argument(0), axis.argument(axis.size - 1), axis.logarithmic, axis.size};
-}
-
-/// The model for `machine`, within what `room` has.
-CompiledModel model_within(const Machine& room, const Material& material, const Machine& machine,
-                           const glm::vec3& light, const glm::vec3& ambient) {
-    ExprBuilder builder;
-    ExprPtr value = model_expression(material, builder);
-    const TexelSource source(material);
-    PlanTask task;
-    task.quantities = values_of(quantities_of(*value), source, material.name, task.most_tilt);
-
-    // Numbers and colours that do not vary are constants of the program.
-    std::vector<std::pair<const Expr*, glm::dvec3>> constants;
-    std::vector<LayerQuantity> constant_layer;
-    for (const auto& [quantity, v] : task.quantities) {
-        if (v.low != v.high) continue;
-        // Registers hold no signs in constants; a vector of length 0 is none.
-        if (quantity->kind == ValueKind::vector && v.longest > 0.0) continue;
-        constants.emplace_back(quantity, v.low);
-        LayerQuantity same;
-        same.name = quantity->name;
-        same.components = quantity->kind == ValueKind::scalar ? 1 : 3;
-        same.constant = v.low;
-        same.definition = print_expression(*quantity->args.front());
-        constant_layer.push_back(std::move(same));
-    }
-    value = with_constants(value, builder, constants);
-
-    const std::vector<ModelTerm> terms = terms_of(value, builder);
-    Ranges ranges;
-    for (const auto& [quantity, v] : task.quantities) {
-        if (quantity->kind == ValueKind::vector) {
-            ranges.set(quantity, {v.shortest, v.longest});
-        } else {
-            ranges.set(quantity, {std::min({v.low.x, v.low.y, v.low.z}),
-                                  std::max({v.high.x, v.high.y, v.high.z})});
-        }
-    }
-    std::vector<const Expr*> roots;
-    for (const ModelTerm& term : terms) {
-        if (term.scalar) roots.push_back(term.scalar.get());
-    }
-    require_bounds(roots, ranges, material.name);
-    const TablePrice price = machine.stage_fetches ? TablePrice::fetch
-                             : room.stage_fetches  ? TablePrice::passes
-                                                   : TablePrice::none;
-    Cover cover(roots, ranges, machine.numbers, price);
-    task.terms = &terms;
-    task.varies = source.varies();
-    task.light = light;
-    task.ambient = ambient;
-    task.numbers = machine.numbers;
-    task.vertex_light = machine.half_vector == HalfVector::vertex;
-    task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
-    const Plan plan = make_plan(task, cover, ranges);
-    Schedule scheduled = schedule(plan, room, machine);
-    BakedTextures baked = bake(plan, scheduled, source, machine.numbers);
-
-    CompiledModel compiled;
-    compiled.program = std::move(scheduled.material);
-    compiled.program.units = std::move(baked.units);
-    compiled.layer = std::move(baked.layer);
-    for (std::size_t i = 0; i < plan.quantities.size(); ++i)
-        compiled.layer[i].definition = print_expression(*plan.quantities[i].expr->args.front());
-    compiled.layer.insert(compiled.layer.end(), constant_layer.begin(), constant_layer.end());
-    for (std::size_t i = 0; i < plan.tables.size(); ++i) {
-        const PlanTable& t = plan.tables[i];
-        TableReport& report = compiled.tables.emplace_back();
-        report.function = t.function;
-        for (const PlanAxis& axis : t.axes) report.axes.push_back(report_of(axis));
-        report.unit = scheduled.tables[i];
-        report.interpolation = t.interpolation;
-    }
-    compiled.needs = scheduled.needs;
-    return compiled;
-}
-
-/// All that the model takes, whatever `machine` has. Without tables if combiners can do it; `first`
-/// is what was short there.
-ModelNeeds count_needs(const Shortage& first, const Material& material, const Machine& machine,
-                       const glm::vec3& light, const glm::vec3& ambient) {
-    Machine target = machine;
-    target.texture_units = with_room(machine).texture_units;
-    Machine room = target;
-    room.general_stages = std::numeric_limits<int>::max();
-    room.stage_fetches = with_room(machine).stage_fetches || first.needs.tables > 0;
-    room.texture_operations = TextureOperations::all;
-    ModelNeeds needs = first.needs;
-    for (const bool own : {machine.stage_constants || machine.multipass, true}) {
-        room.stage_constants = own;
-        try {
-            needs = model_within(room, material, target, light, ambient).needs;
-            needs.stage_constants = own && !machine.multipass;
-            return needs;
-        } catch (const Shortage& shortage) {
-            needs = shortage.needs;
-        }
-    }
-    return needs;
 }
 
 /// "ward", or the text of a material and where in it.
@@ -171,23 +29,6 @@ std::string name_of(const Material& material, const Shortage& shortage) {
     std::string name = fmt::format("material '{}', model_text", material.name);
     if (shortage.line > 0) name += fmt::format(":{}:{}", shortage.line, shortage.column);
     return name;
-}
-
-/// What several passes would change.
-std::string with_passes(const Material& material, Machine machine, const ModelNeeds& needs,
-                        const glm::vec3& light, const glm::vec3& ambient) {
-    const Machine room = with_room(machine);
-    if (machine.multipass) {
-        if (needs.stages <= room.general_stages) return "";
-        return fmt::format("several passes have {} together", room.general_stages);
-    }
-    machine.multipass = true;
-    try {
-        const std::size_t passes = compile_model(material, machine, light, ambient).passes.size();
-        return fmt::format("in {} passes it fits (multipass)", passes);
-    } catch (const Error&) {
-        return "";
-    }
 }
 
 /// Throws what is short, and `more` behind it.
@@ -202,11 +43,120 @@ std::string with_passes(const Material& material, Machine machine, const ModelNe
 
 }  // namespace
 
-CompiledModel compile_model(const Material& material, const Machine& machine,
-                            const glm::vec3& light, const glm::vec3& ambient) {
+/// What is kept of a material.
+struct ModelCompiler::Parts {
+    explicit Parts(const Material& of) : material(of), terms(of) {}
+
+    CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient);
+
+  private:
+    Cover& cover_for(const Machine& room, const Machine& machine);
+    /// The model for `machine`, within what `room` has.
+    CompiledModel model_within(const Machine& room, const Machine& machine, const glm::vec3& light,
+                               const glm::vec3& ambient);
+    /// All that the model takes, whatever `machine` has. Without tables if combiners can do it;
+    /// `first` is what was short there.
+    ModelNeeds count_needs(const Shortage& first, const Machine& machine, const glm::vec3& light,
+                           const glm::vec3& ambient);
+    /// What several passes would change.
+    std::string with_passes(Machine machine, const ModelNeeds& needs, const glm::vec3& light,
+                            const glm::vec3& ambient);
+
+    Material material;
+    MaterialTerms terms;
+    std::map<std::pair<NumberModel, TablePrice>, Cover> covers;
+    FilledTables tables;
+};
+
+Cover& ModelCompiler::Parts::cover_for(const Machine& room, const Machine& machine) {
+    const TablePrice price = machine.stage_fetches ? TablePrice::fetch
+                             : room.stage_fetches  ? TablePrice::passes
+                                                   : TablePrice::none;
+    const auto key = std::pair(machine.numbers, price);
+    const auto at = covers.find(key);
+    if (at != covers.end()) return at->second;
+    return covers.emplace(key, Cover(terms.roots(), terms.ranges(), machine.numbers, price))
+        .first->second;
+}
+
+CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Machine& machine,
+                                                 const glm::vec3& light, const glm::vec3& ambient) {
+    PlanTask task;
+    task.quantities = terms.quantities();
+    task.most_tilt = terms.most_tilt();
+    task.terms = &terms.terms();
+    task.varies = terms.varies();
+    task.light = light;
+    task.ambient = ambient;
+    task.numbers = machine.numbers;
+    task.vertex_light = machine.half_vector == HalfVector::vertex;
+    task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
+    const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges(), tables);
+    Schedule scheduled = schedule(plan, room, machine);
+    BakedTextures baked = bake(plan, scheduled, terms.texels(), machine.numbers);
+
+    CompiledModel compiled;
+    compiled.program = std::move(scheduled.material);
+    compiled.program.units = std::move(baked.units);
+    compiled.layer = std::move(baked.layer);
+    for (std::size_t i = 0; i < plan.quantities.size(); ++i)
+        compiled.layer[i].definition = print_expression(*plan.quantities[i].expr->args.front());
+    compiled.layer.insert(compiled.layer.end(), terms.constants().begin(), terms.constants().end());
+    for (std::size_t i = 0; i < plan.tables.size(); ++i) {
+        const PlanTable& t = plan.tables[i];
+        TableReport& report = compiled.tables.emplace_back();
+        report.function = t.function;
+        for (const PlanAxis& axis : t.axes) report.axes.push_back(report_of(axis));
+        report.unit = scheduled.tables[i];
+        report.interpolation = t.interpolation;
+    }
+    compiled.needs = scheduled.needs;
+    return compiled;
+}
+
+ModelNeeds ModelCompiler::Parts::count_needs(const Shortage& first, const Machine& machine,
+                                             const glm::vec3& light, const glm::vec3& ambient) {
+    Machine target = machine;
+    target.texture_units = with_room(machine).texture_units;
+    Machine room = target;
+    room.general_stages = std::numeric_limits<int>::max();
+    room.stage_fetches = with_room(machine).stage_fetches || first.needs.tables > 0;
+    room.texture_operations = TextureOperations::all;
+    ModelNeeds needs = first.needs;
+    for (const bool own : {machine.stage_constants || machine.multipass, true}) {
+        room.stage_constants = own;
+        try {
+            needs = model_within(room, target, light, ambient).needs;
+            needs.stage_constants = own && !machine.multipass;
+            return needs;
+        } catch (const Shortage& shortage) {
+            needs = shortage.needs;
+        }
+    }
+    return needs;
+}
+
+std::string ModelCompiler::Parts::with_passes(Machine machine, const ModelNeeds& needs,
+                                              const glm::vec3& light, const glm::vec3& ambient) {
+    const Machine room = with_room(machine);
+    if (machine.multipass) {
+        if (needs.stages <= room.general_stages) return "";
+        return fmt::format("several passes have {} together", room.general_stages);
+    }
+    machine.multipass = true;
     try {
-        CompiledModel model = model_within(machine.multipass ? with_room(machine) : machine,
-                                           material, machine, light, ambient);
+        const std::size_t passes = compile(machine, light, ambient).passes.size();
+        return fmt::format("in {} passes it fits (multipass)", passes);
+    } catch (const Error&) {
+        return "";
+    }
+}
+
+CompiledModel ModelCompiler::Parts::compile(const Machine& machine, const glm::vec3& light,
+                                            const glm::vec3& ambient) {
+    try {
+        CompiledModel model =
+            model_within(machine.multipass ? with_room(machine) : machine, machine, light, ambient);
         if (!machine.multipass || has_room_for(machine, model.program)) return model;
         try {
             model.passes = passes_of(model.program, machine);
@@ -215,10 +165,23 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
         }
         return model;
     } catch (Shortage& shortage) {
-        shortage.needs = count_needs(shortage, material, machine, light, ambient);
-        refuse(material, machine, shortage,
-               with_passes(material, machine, shortage.needs, light, ambient));
+        shortage.needs = count_needs(shortage, machine, light, ambient);
+        refuse(material, machine, shortage, with_passes(machine, shortage.needs, light, ambient));
     }
+}
+
+ModelCompiler::ModelCompiler(const Material& material)
+    : m_parts(std::make_unique<Parts>(material)) {}
+ModelCompiler::~ModelCompiler() = default;
+
+CompiledModel ModelCompiler::compile(const Machine& machine, const glm::vec3& light,
+                                     const glm::vec3& ambient) {
+    return m_parts->compile(machine, light, ambient);
+}
+
+CompiledModel compile_model(const Material& material, const Machine& machine,
+                            const glm::vec3& light, const glm::vec3& ambient) {
+    return ModelCompiler(material).compile(machine, light, ambient);
 }
 
 const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& material,
@@ -231,7 +194,12 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
             return e->model;
         }
     }
-    CompiledModel model = compile_model(*material, machine, light, ambient);
+    if (!m_compiler || m_compiled_last != material) {
+        m_compiler.reset();
+        m_compiler = std::make_unique<ModelCompiler>(*material);
+        m_compiled_last = material;
+    }
+    CompiledModel model = m_compiler->compile(machine, light, ambient);
     m_entries.push_back(
         std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), true}));
     return m_entries.back()->model;
@@ -239,6 +207,13 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
 
 void CompiledModels::drop_unused() {
     std::erase_if(m_entries, [](const auto& e) { return !e->used; });
+    const bool is_drawn = std::any_of(m_entries.begin(), m_entries.end(), [&](const auto& e) {
+        return e->material == m_compiled_last;
+    });
+    if (!is_drawn) {
+        m_compiler.reset();
+        m_compiled_last.reset();
+    }
     for (const auto& e : m_entries) e->used = false;
 }
 

@@ -46,6 +46,22 @@ struct CompiledModel {
 CompiledModel compile_model(const Material& material, const Machine& machine,
                             const glm::vec3& light, const glm::vec3& ambient);
 
+/// compile_model for one material on one machine and in one light after the other: what depends on
+/// the material alone is worked out once, its texels kept as TexelQuantities does.
+class ModelCompiler {
+  public:
+    explicit ModelCompiler(const Material& material);
+    ~ModelCompiler();
+    ModelCompiler(const ModelCompiler&) = delete;
+    ModelCompiler& operator=(const ModelCompiler&) = delete;
+
+    CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> m_parts;
+};
+
 /// Compiled models, kept while they are drawn again.
 class CompiledModels {
   public:
@@ -65,6 +81,10 @@ class CompiledModels {
         bool used;
     };
     std::vector<std::unique_ptr<Entry>> m_entries;
+    /// Of the material that was compiled last, which may have more lights or moving ones: kept
+    /// while it is drawn.
+    std::unique_ptr<ModelCompiler> m_compiler;
+    std::shared_ptr<const Material> m_compiled_last;
 };
 
 }  // namespace burnish

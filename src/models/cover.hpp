@@ -13,6 +13,8 @@ using NodeSet = std::set<const Expr*, ByAge>;
 
 struct Interval {
     double low = 0.0, high = 0.0;
+
+    friend bool operator==(const Interval&, const Interval&) = default;
 };
 
 /// What is known of the values of nodes.

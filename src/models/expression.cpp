@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <unordered_map>
 
-#include "core/dmath.hpp"
+#include "models/scalar_operations.hpp"
 
 namespace burnish {
 
@@ -51,17 +50,6 @@ bool is_texel_scalar(const Expr& e) {
 
 bool is_negation(const Expr& e) {
     return e.op == ExprOp::multiply && is_number(*e.args[0], -1.0);
-}
-
-double exponential_of(double x) {
-    constexpr double kLog2E = 1.4426950408889634;
-    return dmath::exp2(x * kLog2E);
-}
-
-/// x^y, x counted as 0 where it is negative.
-double power_of(double x, double y) {
-    if (x <= 0.0 && y < 0.0) return std::numeric_limits<double>::infinity();
-    return dmath::pow(x, y);
 }
 
 }  // namespace
@@ -254,7 +242,7 @@ glm::dvec3 computed(ExprOp op, const glm::dvec3& a, const glm::dvec3& b) {
         case ExprOp::power:
             return glm::dvec3(power_of(a.x, b.x));
         case ExprOp::square_root:
-            return glm::dvec3(std::sqrt(std::max(a.x, 0.0)));
+            return glm::dvec3(root_of(a.x));
         case ExprOp::exponential:
             return glm::dvec3(exponential_of(a.x));
         case ExprOp::minimum:

@@ -54,17 +54,12 @@ bool is_half_vector(const Expr& e) {
     return e.op == ExprOp::geometry && e.name == "h";
 }
 
-/// Interpolation as good as texels are, of a table's height.
-constexpr double kFine = 0x1p-15;
-/// Values of the other argument at which a table is looked at.
-constexpr int kOthers = 33;
-
 constexpr double kAll = std::numeric_limits<double>::infinity();
 
 class Planner {
   public:
-    Planner(const PlanTask& task, Cover& cover, Ranges& ranges)
-        : m_task(task), m_cover(cover), m_ranges(ranges) {}
+    Planner(const PlanTask& task, Cover& cover, Ranges& ranges, FilledTables& tables)
+        : m_task(task), m_cover(cover), m_ranges(ranges), m_tables(tables) {}
 
     Plan make() {
         for (const Expr* e : m_cover.tables()) {
@@ -568,7 +563,7 @@ class Planner {
             t.axes.push_back(axis(*args[i], domain.arguments[i]));
             t.axes.back().name = print_expression(*args[i]);
         }
-        fill(t, e, args);
+        m_tables.fill(t, e, args, domain.arguments, m_task.numbers);
         PlanValue v;
         v.op = PlanOp::table;
         v.index = static_cast<int>(m_plan.tables.size());
@@ -604,103 +599,6 @@ class Planner {
             }
         }
         return a;
-    }
-
-    /// As many texels as it takes until interpolation is as good as the numbers are, or as there
-    /// can be, where they do most.
-    void fill(PlanTable& t, const Expr& e, const std::vector<const Expr*>& args) {
-        const bool wide = m_task.numbers == NumberModel::wide;
-        Tape tape({&e}, args);
-        const std::vector<Interval>& domain = m_domains.at(&e).arguments;
-        const auto value = [&](double x, double y) {
-            // Texels beyond the domain repeat its ends.
-            x = std::clamp(x, domain.front().low, domain.front().high);
-            y = std::clamp(y, domain.back().low, domain.back().high);
-            glm::dvec3 at[2]{glm::dvec3(x), glm::dvec3(y)}, result;
-            tape.run(at, &result);
-            if (!(std::abs(result.x) < 1e6))
-                throw Error(
-                    ErrorCode::bad_program,
-                    fmt::format("model_text:{}:{}: a table that has no bound: {} is {} at {}{}, "
-                                "expected less than 10^6, as with max(1/32, ...)",
-                                e.line, e.column, print_expression(e), result.x, x,
-                                args.size() == 2 ? fmt::format(", {}", y) : ""));
-            return result.x;
-        };
-        const bool is_2d = args.size() == 2;
-        double peak = 1e-9;
-        // Halfway between texels, of an axis of `size` texels, at some values of the other.
-        const auto error_along = [&](std::size_t own, int size) {
-            PlanAxis a = t.axes[own], other = is_2d ? t.axes[1 - own] : PlanAxis();
-            a.size = size;
-            other.size = is_2d ? kOthers : 1;
-            double error = 0.0;
-            for (int i = 0; i < other.size; ++i) {
-                const double fixed = other.argument(i);
-                const auto at = [&](double x) {
-                    return own == 0 ? value(x, fixed) : value(fixed, x);
-                };
-                double left = at(a.argument(0));
-                for (int j = 0; j + 1 < size; ++j) {
-                    const double right = at(a.argument(j + 1));
-                    peak = std::max({peak, std::abs(left), std::abs(right)});
-                    error = std::max(error, std::abs(at(a.between(j)) - 0.5 * (left + right)));
-                    left = right;
-                }
-            }
-            return error;
-        };
-        for (PlanAxis& a : t.axes) a.size = 256;
-        if (!wide) {
-            for (std::size_t own = 0; own < t.axes.size(); ++own)
-                t.interpolation = std::max(t.interpolation, error_along(own, 256));
-        } else if (!is_2d) {
-            for (int size = 256; size <= kFinest1d; size *= 2) {
-                t.axes[0].size = size;
-                t.interpolation = error_along(0, size);
-                if (t.interpolation <= kFine * peak) break;
-            }
-        } else {
-            choose_sizes(t, error_along, peak);
-        }
-        t.unit = peak;
-        const PlanAxis none;
-        const PlanAxis& second = is_2d ? t.axes[1] : none;
-        for (int y = 0; y < second.size; ++y) {
-            for (int x = 0; x < t.axes[0].size; ++x) {
-                const double f = value(t.axes[0].argument(x), is_2d ? second.argument(y) : 0.0);
-                t.values.push_back(f / t.unit);
-                t.coded |= f < 0.0;
-            }
-        }
-        const double highest =
-            std::abs(*std::max_element(t.values.begin(), t.values.end(), [](double a, double b) {
-                return std::abs(a) < std::abs(b);
-            }));
-        for (double& v : t.values) v /= highest;
-        t.unit *= highest;
-    }
-
-    /// Of the shapes that are fine enough the smallest; if none is, the best.
-    template <class ErrorAlong>
-    static void choose_sizes(PlanTable& t, ErrorAlong&& error_along, const double& peak) {
-        std::map<int, std::array<double, 2>> errors;
-        for (int size = kFinest2d / kFinest1d; size <= kFinest1d; size *= 2)
-            errors[size] = {error_along(std::size_t{0}, size), error_along(std::size_t{1}, size)};
-        const auto score = [&](int x, int y) {
-            const double error = std::max(errors[x][0], errors[y][1]);
-            return std::pair(std::max(error, kFine * peak), x * y);
-        };
-        std::pair<int, int> best{64, 64};
-        for (const auto& [x, unused_x] : errors) {
-            for (const auto& [y, unused_y] : errors) {
-                if (x * y <= kFinest2d && score(x, y) < score(best.first, best.second))
-                    best = {x, y};
-            }
-        }
-        t.axes[0].size = best.first;
-        t.axes[1].size = best.second;
-        t.interpolation = std::max(errors[best.first][0], errors[best.second][1]);
     }
 
     // --- light
@@ -903,6 +801,7 @@ class Planner {
     const PlanTask& m_task;
     Cover& m_cover;
     Ranges& m_ranges;
+    FilledTables& m_tables;
     Plan m_plan;
     std::map<const Expr*, TableDomain, ByAge> m_domains;
     std::map<const Expr*, double, ByAge> m_reach, m_shared_units;
@@ -930,8 +829,8 @@ double PlanAxis::at(double position) const {
     return logarithmic ? dmath::exp2(low + x) : x;
 }
 
-Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges) {
-    return Planner(task, cover, ranges).make();
+Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges, FilledTables& tables) {
+    return Planner(task, cover, ranges, tables).make();
 }
 
 }  // namespace burnish

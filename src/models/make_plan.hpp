@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "models/filled_tables.hpp"
 #include "models/plan.hpp"
 #include "models/terms.hpp"
 
@@ -32,6 +33,6 @@ struct PlanTask {
 
 /// Throws Error{bad_program} for what no table can hold, Shortage where there are none and one is
 /// needed.
-Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges);
+Plan make_plan(const PlanTask& task, Cover& cover, Ranges& ranges, FilledTables& tables);
 
 }  // namespace burnish

@@ -18,6 +18,7 @@ class MapSampler {
     /// (-1, -1) it is asked for the border. Of a grid of the map's size it is value_of(x, y).
     template <class ValueOf>
     [[nodiscard]] auto at(int x, int y, const ValueOf& value_of) const {
+        if (m_width == m_map->width() && m_height == m_map->height()) return value_of(x, y);
         const Sampler& sampler = m_map->sampler();
         const Axis s = axis(x, m_width, m_map->width());
         const Axis t = axis(y, m_height, m_map->height());

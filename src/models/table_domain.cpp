@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/dmath.hpp"
+#include "models/table_function.hpp"
 
 namespace burnish {
 
@@ -18,60 +20,45 @@ double position(const Interval& range, int i) {
     return range.low + (range.high - range.low) * (dmath::exp2(10.0 * x) - 1.0) / 1023.0;
 }
 
-/// A function of one or two numbers.
-class Function {
-  public:
-    Function(const Expr& e, const std::vector<const Expr*>& args)
-        : m_tape({&e}, args), m_count(args.size()) {}
-    double operator()(std::size_t own, double x, double other) {
-        glm::dvec3 at[2]{glm::dvec3(other), glm::dvec3(other)}, result;
-        at[own] = glm::dvec3(x);
-        m_tape.run(at, &result);
-        return result.x;
-    }
-    [[nodiscard]] int others() const { return m_count == 2 ? kOthers : 1; }
-
-  private:
-    Tape m_tape;
-    std::size_t m_count;
-};
-
-/// Number `i` of the values of the other argument that are looked at.
-double other_value(const std::vector<Interval>& ranges, std::size_t own, int i) {
-    if (ranges.size() == 1) return 0.0;
+/// Values of the other argument that are looked at.
+std::vector<double> other_values(const std::vector<Interval>& ranges, std::size_t own) {
+    if (ranges.size() == 1) return {};
     const Interval& o = ranges[1 - own];
-    return o.low + (o.high - o.low) * i / (kOthers - 1);
+    std::vector<double> values;
+    for (int i = 0; i < kOthers; ++i)
+        values.push_back(o.low + (o.high - o.low) * i / (kOthers - 1));
+    return values;
 }
 
 /// The bound beyond which the function rests.
-double resting(Function& f, const std::vector<Interval>& ranges, std::size_t own, double rest) {
+double resting(TableFunction& f, const std::vector<Interval>& ranges, std::size_t own,
+               double rest) {
     const Interval& range = ranges[own];
+    std::vector<double> at;
+    for (int k = 0; k <= kSteps; ++k) at.push_back(position(range, k));
+    at.push_back(range.high);
     double peak = 0.0;
     std::vector<double> deviation(kSteps + 1, 0.0);
-    for (int i = 0; i < f.others(); ++i) {
-        const double other = other_value(ranges, own, i);
-        const double end = f(own, range.high, other);
-        for (int k = 0; k <= kSteps; ++k) {
-            const double y = f(own, position(range, k), other);
-            deviation[static_cast<std::size_t>(k)] =
-                std::max(deviation[static_cast<std::size_t>(k)], std::abs(y - end));
-            peak = std::max(peak, std::abs(y));
+    f.rows(own, at, other_values(ranges, own), [&](std::size_t, std::span<const double> y) {
+        const double end = y.back();
+        for (std::size_t k = 0; k < deviation.size(); ++k) {
+            deviation[k] = std::max(deviation[k], std::abs(y[k] - end));
+            peak = std::max(peak, std::abs(y[k]));
         }
-    }
+    });
     int last = kSteps;
     while (last > 0 && deviation[static_cast<std::size_t>(last - 1)] <= rest * peak) --last;
     return position(range, last);
 }
 
-bool same_below_zero(Function& f, const std::vector<Interval>& ranges, std::size_t own) {
-    for (int i = 0; i < f.others(); ++i) {
-        const double other = other_value(ranges, own, i);
-        const double zero = f(own, 0.0, other);
-        for (int k = 1; k <= 8; ++k) {
-            if (f(own, ranges[own].low * k / 8.0, other) != zero) return false;
-        }
-    }
-    return true;
+bool same_below_zero(TableFunction& f, const std::vector<Interval>& ranges, std::size_t own) {
+    std::vector<double> at{0.0};
+    for (int k = 1; k <= 8; ++k) at.push_back(ranges[own].low * k / 8.0);
+    bool same = true;
+    f.rows(own, at, other_values(ranges, own), [&](std::size_t, std::span<const double> y) {
+        for (const double value : y) same &= value == y.front();
+    });
+    return same;
 }
 
 /// How a function looks from texel to texel along one of its arguments.
@@ -81,36 +68,39 @@ struct Roughness {
 };
 
 /// Looks near both ends and in between.
-Roughness roughness(Function& f, const std::vector<const Expr*>& args,
+Roughness roughness(TableFunction& f, const std::vector<const Expr*>& args,
                     const std::vector<Interval>& ranges, std::size_t own, int size) {
     const Interval& range = ranges[own];
     const bool logarithmic = is_logarithmic(*args[own], range);
-    const auto at = [&](double texel) {
+    const auto place = [&](double texel) {
         const double x = texel / (size - 1);
         if (!logarithmic) return range.low + (range.high - range.low) * x;
         return range.low * dmath::exp2(x * dmath::log2(range.high / range.low));
     };
-    Roughness seen;
-    for (int i = 0; i < f.others(); ++i) {
-        const double other = other_value(ranges, own, i);
-        for (int k = 0; k < 64; ++k) {
-            // Neighbours 0, 1, 2, 3 .. from both ends, then further apart.
-            const double from_end = k < 16 ? k / 2 : (k - 15) * (size - 2) / 100.0;
-            const double texel =
-                std::floor(k % 2 == 0 ? from_end : size - 2 - std::floor(from_end));
-            const double x = at(texel), y = at(texel + 1.0);
-            const double a = f(own, x, other), b = f(own, y, other);
-            seen.error =
-                std::max(seen.error, std::abs(f(own, at(texel + 0.5), other) - 0.5 * (a + b)));
-            seen.height = std::max({seen.height, std::abs(a), std::abs(b)});
-            if (y > x) seen.slope = std::max(seen.slope, std::abs(b - a) / (y - x));
-        }
+    // A texel, the next one, and halfway to it.
+    std::vector<double> at;
+    for (int k = 0; k < 64; ++k) {
+        // Neighbours 0, 1, 2, 3 .. from both ends, then further apart.
+        const double from_end = k < 16 ? k / 2 : (k - 15) * (size - 2) / 100.0;
+        const double texel = std::floor(k % 2 == 0 ? from_end : size - 2 - std::floor(from_end));
+        for (const double step : {0.0, 1.0, 0.5}) at.push_back(place(texel + step));
     }
+    Roughness seen;
+    f.rows(own, at, other_values(ranges, own), [&](std::size_t, std::span<const double> values) {
+        for (std::size_t k = 0; k < at.size(); k += 3) {
+            const double a = values[k], b = values[k + 1];
+            const double width = at[k + 1] - at[k];
+            seen.error = std::max(seen.error, std::abs(values[k + 2] - 0.5 * (a + b)));
+            seen.height = std::max({seen.height, std::abs(a), std::abs(b)});
+            if (at[k + 1] > at[k]) seen.slope = std::max(seen.slope, std::abs(b - a) / width);
+        }
+    });
     return seen;
 }
 
 /// Of the best shape that the finest table can have.
-void look_between_texels(Function& f, const std::vector<const Expr*>& args, TableDomain& domain) {
+void look_between_texels(TableFunction& f, const std::vector<const Expr*>& args,
+                         TableDomain& domain) {
     domain.slopes.assign(args.size(), 0.0);
     const auto look = [&](std::size_t own, int size) {
         const Roughness seen = roughness(f, args, domain.arguments, own, size);
@@ -139,7 +129,7 @@ TableDomain table_domain(const Expr& function, const std::vector<const Expr*>& a
                          NumberModel numbers) {
     TableDomain domain;
     for (const Expr* arg : args) domain.arguments.push_back(ranges.of(*arg));
-    Function f(function, args);
+    TableFunction f(function, args);
     const double rest = numbers == NumberModel::wide ? 0x1p-12 : 0x1p-9;
     for (std::size_t i = 0; i < args.size(); ++i) {
         if (args[i]->op == ExprOp::quantity) continue;
