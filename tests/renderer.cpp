@@ -157,6 +157,22 @@ TEST(Renderer, CullsBySeenWinding) {
     }
 }
 
+TEST(Renderer, MeshesHaveNoVertexColoursWhateverWasDrawnBefore) {
+    Scene scene = flat_scene();
+    scene.lights.push_back({});
+    const auto lit = vertex_color();
+    lit->program->col0_rgb = ColorInput::half_tangent;
+    lit->program->col0_a = ColorInput::n_dot_l;
+    scene.objects.push_back({Mesh(shapes::cube()), lit, glm::mat4(1.0F), {}});
+    Renderer renderer;
+    Framebuffer before(32, 32), after(32, 32);
+    renderer.render(scene, before);
+    EXPECT_NE(pixel(before, 16, 16), (Rgba{0, 0, 0, 0}));
+    scene.objects.front().material = vertex_color();
+    renderer.render(scene, after);
+    EXPECT_EQ(pixel(after, 16, 16), (Rgba{0, 0, 0, 0}));
+}
+
 TEST(Renderer, DrawsIntoMemoryOfTheCaller) {
     Scene scene = flat_scene();
     scene.objects.push_back(rectangle(0.0F, 0.0F, 200.0F, 200.0F, 0.5F, kRed));

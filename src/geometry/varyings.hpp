@@ -60,7 +60,8 @@ struct LightInputs {
     VectorRules rules = {};
 };
 
-/// Values of `list` for every vertex, vertex by vertex. Vectors are unit length at the vertex.
+/// Values of `list`, which names nothing that only raw vertices have, for every vertex, vertex by
+/// vertex. Vectors are unit length at the vertex.
 void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
                    std::span<const LightInputs> lights, const KernelTable& kernels,
                    WorkerPool& pool, std::vector<float>& out);
