@@ -13,8 +13,8 @@
 
 /// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
 /// compared with the reference before anything is timed. Items are fragments, vertices for
-/// `transform` and covered pixels for `rasterize`; `cycles` are those of the time-stamp counter per
-/// item, which runs at the CPU's nominal clock.
+/// `transform` and `light_vertices`, covered pixels for `rasterize`; `cycles` are those of the
+/// time-stamp counter per item, which runs at the CPU's nominal clock.
 namespace burnish {
 namespace {
 
@@ -103,6 +103,49 @@ void add_transform() {
             const TransformCtx ctx = grid.context();
             for (auto _ : state) {
                 table.transform(ctx);
+                benchmark::ClobberMemory();
+            }
+        });
+}
+
+/// Vertices with a half vector and a cosine each, as two-combiner machines want them.
+struct LitVertices {
+    static constexpr int kCount = 1024;
+    static constexpr std::array<std::int8_t, 4> kValues{
+        VertexValue::half, VertexValue::half + 1, VertexValue::half + 2, VertexValue::n_dot_l};
+    std::vector<float> frames = std::vector<float>(kCount * LightVerticesCtx::kFrameFloats);
+    std::vector<float> out = std::vector<float>(kCount * kValues.size());
+
+    LitVertices() {
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            frames[i] = 0.25F + 0.5F * static_cast<float>(i * 7 % 31) / 31.0F;
+    }
+    LightVerticesCtx context() {
+        LightVerticesCtx ctx{};
+        ctx.frames = frames.data();
+        ctx.count = kCount;
+        ctx.light[1] = ctx.eye[2] = 3.0F;
+        ctx.eye_w = 1.0F;
+        ctx.values = kValues.data();
+        ctx.stride = static_cast<int>(kValues.size());
+        ctx.out = out.data();
+        return ctx;
+    }
+};
+
+void add_light_vertices() {
+    static LitVertices vertices, reference;
+    add(
+        "light_vertices", LitVertices::kCount,
+        [](const KernelTable& table) -> std::string {
+            table.light_vertices(vertices.context());
+            table_reference().light_vertices(reference.context());
+            return vertices.out == reference.out ? "" : "values of vertices";
+        },
+        [](const KernelTable& table, benchmark::State& state) {
+            const LightVerticesCtx ctx = vertices.context();
+            for (auto _ : state) {
+                table.light_vertices(ctx);
                 benchmark::ClobberMemory();
             }
         });
@@ -653,6 +696,7 @@ void add_models() {
 int main(int argc, char** argv) {
     using namespace burnish;
     add_transform();
+    add_light_vertices();
     add_rasterize();
     add_collect();
     add_attributes();
