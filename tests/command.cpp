@@ -174,9 +174,13 @@ TEST_F(Command, StatsAreCountsAndTimes) {
     EXPECT_EQ(json.code, 0);
     EXPECT_TRUE(json.out.starts_with("{\"triangles\": ")) << json.out;
     EXPECT_TRUE(json.out.ends_with("}\n")) << json.out;
-    for (const char* key : {"shaded_pixels", "geometry_ms", "tiles_ms", "busy_threads", "isa"})
+    for (const char* key :
+         {"shaded_pixels", "geometry_ms", "tiles_ms", "busy_threads", "isa", "transform", "setup",
+          "bin", "coverage", "interpolate", "texture", "combine", "resolve", "waiting_ms"})
         EXPECT_SAYS(json.out, fmt::format("\"{}\": ", key));
-    EXPECT_SAYS(run("render s.toml --stats text").out, "shaded_pixels");
+    const std::string text = run("render s.toml --stats text").out;
+    EXPECT_SAYS(text, "shaded_pixels");
+    EXPECT_SAYS(text, "values, ");
 }
 
 TEST_F(Command, TurntableNumbersItsFiles) {

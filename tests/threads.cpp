@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <burnish/error.hpp>
+#include <chrono>
 #include <cstring>
+#include <map>
 #include <numeric>
+#include <string_view>
 #include <thread>
 
 #include "core/parallel.hpp"
@@ -125,6 +128,63 @@ TEST(Threads, ARefusedSceneLeavesTheRendererUsable) {
         EXPECT_THROW(renderer.render(bad, frame), Error);
         renderer.render(scenes[0], frame);
         EXPECT_TRUE(same(frame, want));
+    }
+}
+
+std::map<std::string_view, StageCost> by_name(const FrameStats& stats) {
+    std::map<std::string_view, StageCost> stages;
+    for (const StageCost& stage : stats.stages) stages[stage.name] = stage;
+    return stages;
+}
+
+std::uint64_t fragments_of_tiles(const FrameStats& stats) {
+    std::uint64_t sum = 0;
+    for (const TileCost& tile : stats.tile_costs) sum += tile.fragments;
+    return sum;
+}
+
+// Looking at the clock changes no pixel; every moment of every worker is in one stage, so stages
+// add up to workers x frame and each kernel is a part of its stage; what is counted is what the
+// frame's counts say, however many workers shared it and however often the bins were flushed.
+TEST(Threads, AccountsAreComplete) {
+    const std::vector<Scene> scenes = small_scenes();
+    for (const Scene& scene : scenes) {
+        Framebuffer want(kWidth, kHeight), frame(kWidth, kHeight);
+        EXPECT_TRUE(Renderer({.threads = 1}).render(scene, want).stages.empty());
+        std::vector<std::uint64_t> alone;
+        for (const int threads : {1, 2, 5}) {
+            for (const std::size_t cap : {std::size_t{1} << 28, std::size_t{1}}) {
+                Renderer renderer({.threads = threads, .memory_cap = cap, .accounting = true});
+                renderer.render(scene, frame);
+                const auto start = std::chrono::steady_clock::now();
+                const FrameStats stats = renderer.render(scene, frame);
+                const std::chrono::duration<double, std::milli> time =
+                    std::chrono::steady_clock::now() - start;
+                ASSERT_TRUE(same(frame, want)) << threads << " threads";
+                auto stages = by_name(stats);
+                double sum = 0.0;
+                std::vector<std::uint64_t> counts;
+                for (const StageCost& stage : stats.stages) {
+                    sum += stage.ms;
+                    if (stage.name != "bin") counts.push_back(stage.items);  // binned again
+                }
+                EXPECT_LE(sum, threads * time.count());
+                EXPECT_GE(sum, 0.5 * threads * time.count());
+                for (const KernelCost& kernel : stats.kernels) stages[kernel.stage].ms -= kernel.ms;
+                stages.erase("waiting");
+                for (const auto& [name, stage] : stages) EXPECT_GE(stage.ms, -1e-9) << name;
+                EXPECT_EQ(stages["prepare"].items, scene.objects.size());
+                EXPECT_EQ(stages["packets"].items, stats.shaded_pixels);
+                EXPECT_EQ(fragments_of_tiles(stats), stats.shaded_pixels);
+                EXPECT_EQ(stats.tile_costs.size(), 6U);
+                if (cap == 1) continue;
+                EXPECT_EQ(stages["setup"].items, stats.triangles);
+                EXPECT_EQ(stages["bin"].items, stats.binned_triangles);
+                EXPECT_EQ(stages["resolve"].items, std::uint64_t{kWidth * kHeight});
+                if (alone.empty()) alone = counts;
+                EXPECT_EQ(counts, alone) << threads << " threads";
+            }
+        }
     }
 }
 

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/frame_account.hpp"
+
 #ifdef BURNISH_THREADS_TBB
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -166,6 +168,22 @@ WorkerPool::WorkerPool(WorkerPool&&) noexcept = default;
 WorkerPool& WorkerPool::operator=(WorkerPool&&) noexcept = default;
 
 void WorkerPool::run(const std::function<void(int)>& body) {
+    if (m_account == nullptr) return run_workers(body);
+    StageClock& first = m_account->clock(0);
+    const StageClock::Place stage = first.place();
+    run_workers([&](int worker) {
+        if (worker > 0) {
+            const ClockLoan loan(m_account->clock(worker), stage);
+            body(worker);
+        } else {
+            body(0);
+            first.enter(StageClock::place(FrameStage::waiting));  // for the others
+        }
+    });
+    first.enter(stage);
+}
+
+void WorkerPool::run_workers(const std::function<void(int)>& body) {
     if (m_size == 1) {
         const FloatEnvironment environment;
         body(0);

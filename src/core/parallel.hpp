@@ -5,6 +5,8 @@
 
 namespace burnish {
 
+class FrameAccount;
+
 /// A fixed number of workers. The backend is oneTBB, or plain threads (BURNISH_THREADS=std), which
 /// the thread sanitizer can see through.
 class WorkerPool {
@@ -22,10 +24,17 @@ class WorkerPool {
     /// An exception from a body is rethrown here (one of them, if there are several).
     void run(const std::function<void(int)>& body);
 
+    /// From now on worker w runs with the clock of `account`, in the stage that worker 0 is in when
+    /// `run` is called. Null: without.
+    void keep_account(FrameAccount* account) { m_account = account; }
+
   private:
+    void run_workers(const std::function<void(int)>& body);
+
     struct Backend;
     std::unique_ptr<Backend> m_backend;
     int m_size;
+    FrameAccount* m_account = nullptr;
 };
 
 /// Hands out 0 .. count - 1 to the workers of `pool` in increasing order, a few at a time:

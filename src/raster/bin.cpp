@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/stage_clock.hpp"
 #include "geometry/clip.hpp"
 
 namespace burnish {
@@ -36,6 +37,7 @@ std::span<const std::uint32_t> Chunk::tile(std::int32_t x, std::int32_t y) const
 }
 
 void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last) {
+    const StageScope setup(FrameStage::setup, last - first);
     m_triangles.clear();
     m_unsorted.clear();
     m_counts = {};
@@ -46,6 +48,7 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last)
             {static_cast<std::uint32_t>(i / 3), {indices[i], indices[i + 1], indices[i + 2]}});
     }
     m_counts.binned = m_triangles.size();
+    const StageScope scope(FrameStage::bin, m_counts.binned);
     sort_into_tiles(source.frame);
 }
 
