@@ -44,6 +44,12 @@ class FloatEnvironment {
     std::fenv_t m_saved;
 };
 
+/// A worker's own part of the work; who is done helps the others.
+struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
+};
+
 int checked_size(int workers) {
     if (workers < 0 || workers > kMaxWorkers) {
         throw Error(ErrorCode::bad_option,
@@ -194,12 +200,24 @@ void WorkerPool::run_workers(const std::function<void(int)>& body) {
 
 void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, int)>& body) {
-    alignas(64) std::atomic<std::size_t> next{0};
+    const auto workers = static_cast<std::size_t>(pool.size());
+    std::vector<Share> shares(workers);
+    const auto first = [&](std::size_t share) {
+        return std::min(count, (count * share / workers + grain - 1) / grain * grain);
+    };
+    for (std::size_t i = 0; i < workers; ++i) {
+        shares[i].next = first(i);
+        shares[i].end = i + 1 < workers ? first(i + 1) : count;
+    }
     pool.run([&](int worker) {
-        for (;;) {
-            const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-            if (begin >= count) return;
-            for (std::size_t i = begin; i < std::min(count, begin + grain); ++i) body(i, worker);
+        for (std::size_t k = 0; k < workers; ++k) {
+            Share& share = shares[(static_cast<std::size_t>(worker) + k) % workers];
+            for (;;) {
+                const std::size_t begin = share.next.fetch_add(grain, std::memory_order_relaxed);
+                if (begin >= share.end) break;
+                const std::size_t end = std::min(share.end, begin + grain);
+                for (std::size_t i = begin; i < end; ++i) body(i, worker);
+            }
         }
     });
 }
