@@ -84,6 +84,7 @@ struct Renderer::State {
                  const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
+    void weigh_tiles(std::int32_t columns, std::size_t count);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
@@ -107,7 +108,9 @@ struct Renderer::State {
     std::vector<std::unique_ptr<Chunk>> chunks;
     std::size_t chunk_count = 0;  ///< of this round
     std::vector<std::unique_ptr<Worker>> workers;
-    AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
+    std::vector<std::uint32_t> weights;  ///< of tiles
+    WorkOrder order;                     ///< of tiles
+    AlignedVector<float> depth;          ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
     HalfVectorCube half_cube;
 };
@@ -295,7 +298,9 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (!last_round) depth.resize(count * kTilePixels);
-    for_each_index(pool, count, 1, [&](std::size_t i, int w) {
+    weigh_tiles(columns, count);
+    order_work(weights, pool.size(), order);
+    for_each_piece(pool, order, [&](std::size_t i, int w) {
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
         ++worker.tiles;
@@ -303,8 +308,21 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
                             fragments = worker.shader.shaded_pixels();
         draw_tile(worker, tile % columns, tile / columns, target, first_round, last_round);
         if (account)
-            account->add_tile(i, ticks() - start, worker.shader.shaded_pixels() - fragments);
+            account->add_tile(i, ticks() - start, weights[i],
+                              worker.shader.shaded_pixels() - fragments);
     });
+}
+
+/// What a tile will cost: its triangles, and its pixels if there are any.
+void Renderer::State::weigh_tiles(std::int32_t columns, std::size_t count) {
+    constexpr std::uint32_t kPixels =
+        200;  // shading a whole tile costs as much as so many triangles
+    weights.assign(count, 0);
+    if (pool.size() == 1 && !account) return;
+    for (std::size_t i = 0; i < chunk_count; ++i)
+        chunks[i]->add_lengths(weights, static_cast<std::size_t>(columns));
+    for (std::uint32_t& weight : weights)
+        if (weight > 0) weight += kPixels;
 }
 
 /// Everything of one tile, in one worker's cache, then once to the frame. Draws that need no order

@@ -183,6 +183,18 @@ TEST_F(Command, StatsAreCountsAndTimes) {
     EXPECT_SAYS(text, "values, ");
 }
 
+// 40 x 30 pixels are one tile: it is the whole of the tiles' time, and no worker more helps.
+TEST_F(Command, BalanceTellsTheLongestTile) {
+    write_scene("s.toml");
+    const Result text = run("bench s.toml --balance --frames 2");
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_SAYS(text.out, "1.0 times that");
+    const Result json = run("bench s.toml --balance --frames 2 --json");
+    EXPECT_TRUE(json.out.starts_with("{\"tiles\": 1, ")) << json.out;
+    EXPECT_SAYS(json.out, "\"workers\": 64, ");
+    EXPECT_EQ(run("bench s.toml --balance --machine double").code, 2);
+}
+
 TEST_F(Command, TurntableNumbersItsFiles) {
     write_scene("s.toml",
                 "rotate = [0.0, 0.0, 1.0, 20.0]\nscale = 0.5\ntranslate = [0.6, 0.0, 0.0]\n");

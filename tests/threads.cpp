@@ -2,6 +2,7 @@
 // for schedules that change a picture. Build with BURNISH_THREADS=std for the sanitizer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <burnish/error.hpp>
 #include <chrono>
@@ -212,6 +213,52 @@ TEST(WorkerPool, HandsOutEveryIndexOnce) {
                 for (const auto& n : taken) ASSERT_EQ(n, 1) << count << " by " << grain;
             }
         }
+    }
+}
+
+// Heavy pieces go first, the heaviest in front; the rest stays in its order.
+TEST(WorkOrder, HeavyPiecesComeFirst) {
+    WorkOrder order;
+    std::vector<std::uint32_t> weight(100, 1);
+    weight[40] = 50;
+    weight[70] = 60;
+    order_work(weight, 2, order);  // of 208: more than 208 / 32 is heavy
+    ASSERT_EQ(order.shared, 2U);
+    EXPECT_EQ(order.pieces[0], 70U);
+    EXPECT_EQ(order.pieces[1], 40U);
+    EXPECT_TRUE(std::is_sorted(order.pieces.begin() + 2, order.pieces.end()));
+    order_work(weight, 1, order);  // one worker does all of them anyway
+    EXPECT_EQ(order.shared, 0U);
+    EXPECT_TRUE(std::is_sorted(order.pieces.begin(), order.pieces.end()));
+    order_work({}, 8, order);
+    EXPECT_TRUE(order.pieces.empty());
+}
+
+// Two workers and five pieces. To whoever is free: 1 1, 1 1, then 4 alone: 2 + 4. The long one
+// first: 4 beside 1 + 1 + 1 + 1. In halves {1, 1} and {1, 1, 4}: the first worker is done after 2
+// as the second one is, and helps with nothing: the second took its last piece at 2.
+TEST(WorkOrder, FinishingTimesOfASmallSchedule) {
+    const std::vector<double> cost{1.0, 1.0, 1.0, 1.0, 4.0};
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 5}, 2), 6.0);
+    EXPECT_EQ(finishing_time(cost, {{4, 0, 1, 2, 3}, 1}, 2), 4.0);
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0}, 2), 6.0);
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0}, 1), 8.0);
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0}, 64), 4.0);
+    EXPECT_EQ(finishing_time({}, {}, 3), 0.0);
+}
+
+TEST(WorkOrder, EveryPieceIsHandedOutOnce) {
+    WorkOrder order;
+    std::vector<std::uint32_t> weight(1000);
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        weight[i] = static_cast<std::uint32_t>(i * i % 997 * (i % 7 == 0 ? 100 : 1));
+    for (const int size : {1, 2, 5, 8}) {
+        WorkerPool pool(size);
+        order_work(weight, size, order);
+        EXPECT_EQ(order.shared > 0, size > 2);
+        std::vector<std::atomic<int>> taken(weight.size());
+        for_each_piece(pool, order, [&](std::size_t i, int) { ++taken[i]; });
+        for (const auto& n : taken) ASSERT_EQ(n, 1) << size << " workers";
     }
 }
 

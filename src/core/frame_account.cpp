@@ -130,7 +130,9 @@ void FrameAccount::start(std::size_t tiles) {
     m_start_ticks = ticks();
 }
 
-void FrameAccount::add_tile(std::size_t i, std::uint64_t ticks, std::uint64_t fragments) {
+void FrameAccount::add_tile(std::size_t i, std::uint64_t ticks, std::uint32_t weight,
+                            std::uint64_t fragments) {
+    m_tiles[i].weight += weight;
     m_tiles[i].ticks += ticks;
     m_tiles[i].fragments += fragments;
 }
@@ -168,7 +170,7 @@ void FrameAccount::finish(FrameStats& stats) const {
     StageCost& packets = stats.stages[static_cast<std::size_t>(FrameStage::packets)];
     for (const Tile& tile : m_tiles) {
         packets.items += tile.fragments;
-        stats.tile_costs.push_back({milliseconds(tile.ticks), tile.fragments});
+        stats.tile_costs.push_back({milliseconds(tile.ticks), tile.fragments, tile.weight});
     }
     StageCost& waiting = stats.stages[static_cast<std::size_t>(FrameStage::waiting)];
     waiting.ms = static_cast<double>(m_clocks.size()) * time.count();

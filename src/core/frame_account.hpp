@@ -21,8 +21,9 @@ class FrameAccount {
 
     /// Forgets the last frame; `tiles` will come.
     void start(std::size_t tiles);
-    /// Tile `i` took so many ticks more, and its fragments.
-    void add_tile(std::size_t i, std::uint64_t ticks, std::uint64_t fragments);
+    /// Tile `i` of weight `weight` took so many ticks more, and its fragments.
+    void add_tile(std::size_t i, std::uint64_t ticks, std::uint32_t weight,
+                  std::uint64_t fragments);
     /// Writes what was found since `start` into `stats`.
     void finish(FrameStats& stats) const;
 
@@ -31,6 +32,7 @@ class FrameAccount {
     std::vector<StageClock> m_clocks;
     struct Tile {
         std::uint64_t ticks = 0, fragments = 0;
+        std::uint32_t weight = 0;
     };
     std::vector<Tile> m_tiles;
     std::uint64_t m_start_ticks = 0;

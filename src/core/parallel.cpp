@@ -44,11 +44,43 @@ class FloatEnvironment {
     std::fenv_t m_saved;
 };
 
-/// A worker's own part of the work; who is done helps the others.
+/// What one worker takes from.
 struct alignas(64) Share {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
+
+    template <class Body>
+    void work_off(std::size_t grain, const Body& body) {
+        for (;;) {
+            const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
+            if (begin >= end) return;
+            for (std::size_t i = begin; i < std::min(end, begin + grain); ++i) body(i);
+        }
+    }
 };
+
+/// The first `shared` of `count` to whoever is free, the rest as for_each_index says.
+void hand_out(WorkerPool& pool, std::size_t shared, std::size_t count, std::size_t grain,
+              const std::function<void(std::size_t, int)>& body) {
+    const auto workers = static_cast<std::size_t>(pool.size());
+    Share first;
+    first.end = shared;
+    std::vector<Share> shares(workers);
+    const auto begin_of = [&](std::size_t share) {
+        const std::size_t begin = (count - shared) * share / workers;
+        return std::min(count, shared + (begin + grain - 1) / grain * grain);
+    };
+    for (std::size_t i = 0; i < workers; ++i) {
+        shares[i].next = begin_of(i);
+        shares[i].end = i + 1 < workers ? begin_of(i + 1) : count;
+    }
+    pool.run([&](int worker) {
+        const auto take = [&](std::size_t i) { body(i, worker); };
+        if (shared > 0) first.work_off(1, take);
+        for (std::size_t k = 0; k < workers; ++k)
+            shares[(static_cast<std::size_t>(worker) + k) % workers].work_off(grain, take);
+    });
+}
 
 int checked_size(int workers) {
     if (workers < 0 || workers > kMaxWorkers) {
@@ -200,26 +232,13 @@ void WorkerPool::run_workers(const std::function<void(int)>& body) {
 
 void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, int)>& body) {
-    const auto workers = static_cast<std::size_t>(pool.size());
-    std::vector<Share> shares(workers);
-    const auto first = [&](std::size_t share) {
-        return std::min(count, (count * share / workers + grain - 1) / grain * grain);
-    };
-    for (std::size_t i = 0; i < workers; ++i) {
-        shares[i].next = first(i);
-        shares[i].end = i + 1 < workers ? first(i + 1) : count;
-    }
-    pool.run([&](int worker) {
-        for (std::size_t k = 0; k < workers; ++k) {
-            Share& share = shares[(static_cast<std::size_t>(worker) + k) % workers];
-            for (;;) {
-                const std::size_t begin = share.next.fetch_add(grain, std::memory_order_relaxed);
-                if (begin >= share.end) break;
-                const std::size_t end = std::min(share.end, begin + grain);
-                for (std::size_t i = begin; i < end; ++i) body(i, worker);
-            }
-        }
-    });
+    hand_out(pool, 0, count, grain, body);
+}
+
+void for_each_piece(WorkerPool& pool, const WorkOrder& order,
+                    const std::function<void(std::size_t, int)>& body) {
+    hand_out(pool, order.shared, order.pieces.size(), 1,
+             [&](std::size_t i, int worker) { body(order.pieces[i], worker); });
 }
 
 }  // namespace burnish

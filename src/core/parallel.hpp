@@ -3,6 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "core/work_order.hpp"
+
 namespace burnish {
 
 class FrameAccount;
@@ -42,6 +44,10 @@ class WorkerPool {
 /// the same count the same ones in every frame (S1c at 1080p, two workers: 6.5 -> 5.3 ms).
 /// body(index, worker).
 void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, int)>& body);
+
+/// The same in the order given: body(piece, worker).
+void for_each_piece(WorkerPool& pool, const WorkOrder& order,
                     const std::function<void(std::size_t, int)>& body);
 
 }  // namespace burnish

@@ -85,10 +85,12 @@ struct KernelCost {
                               ///< attributes where they do several at once
 };
 
-/// A tile's time on its worker, and the fragments that were shaded in it.
+/// A tile's time on its worker, the fragments that were shaded in it, and what it was expected to
+/// cost when tiles were put in order: some 100 ns each.
 struct TileCost {
     double ms = 0.0;
     std::uint64_t fragments = 0;
+    std::uint32_t weight = 0;
 };
 
 /// What a frame did. Counts do not depend on ISA or thread count; times do.
