@@ -203,6 +203,19 @@ inline I16 load_lanes(const void* const* p) {
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
 
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0x88);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0xdd);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), b);
+}
+
 #elif defined(__AVX2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -300,6 +313,19 @@ inline I16 load_lanes(const void* const* p) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(lane(0)), lane(1), 1);
 }
 
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x20);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x31);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return even_lanes(a, b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return odd_lanes(a, b);
+}
+
 #elif defined(__SSE4_2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -387,6 +413,19 @@ inline I16 broadcast_lane(const void* p) {
 
 inline I16 load_lanes(const void* const* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p[0]));
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
 }
 
 #elif defined(__aarch64__)
@@ -482,6 +521,19 @@ inline I16 broadcast_lane(const void* p) {
 }
 inline I16 load_lanes(const void* const* p) {
     return vld1q_s16(static_cast<const int16_t*>(p[0]));
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
 }
 
 #else
