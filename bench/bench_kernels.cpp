@@ -193,7 +193,7 @@ std::vector<TileTriangle> squares(int side) {
             t.z = 0.5F;
             t.zx = t.zy = 0.001F;
             t.z_high = 1.0F;
-            t.pass_less = t.pass_equal = t.depth_write = 1;
+            t.pass_less = t.depth_write = 1;
             TileTriangle upper = t;
             upper.id = static_cast<std::uint32_t>(triangles.size());
             add_edge(upper, side, 0, side * x, false);

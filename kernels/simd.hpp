@@ -239,6 +239,19 @@ inline void store_lanes(void* const* p, I16 v) {
     _mm_storeu_si128(static_cast<__m128i*>(p[3]), _mm512_extracti32x4_epi32(v, 3));
 }
 
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0x88);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0xdd);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), b);
+}
+
 #elif defined(__AVX2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -354,6 +367,19 @@ inline void store_lanes(void* const* p, I16 v) {
     _mm_storeu_si128(static_cast<__m128i*>(p[1]), _mm256_extracti128_si256(v, 1));
 }
 
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x20);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x31);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return even_lanes(a, b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return odd_lanes(a, b);
+}
+
 #elif defined(__SSE4_2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -458,6 +484,19 @@ inline I16 load_lanes(const void* const* p) {
 }
 inline void store_lanes(void* const* p, I16 v) {
     _mm_storeu_si128(static_cast<__m128i*>(p[0]), v);
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
 }
 
 #elif defined(__aarch64__)
@@ -573,6 +612,19 @@ inline I16 load_lanes(const void* const* p) {
 }
 inline void store_lanes(void* const* p, I16 v) {
     vst1q_s16(static_cast<int16_t*>(p[0]), v);
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
 }
 
 #else
