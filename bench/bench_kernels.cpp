@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bench/count_instructions.hpp"
 #include "bench/run_benchmarks.hpp"
 #include "core/cpu.hpp"
 #include "tests/kernel_packet.hpp"
@@ -19,6 +21,9 @@
 namespace burnish {
 namespace {
 
+/// --instructions: every kernel runs once, and its instructions are counted (x86-64).
+bool count_only = false;
+
 template <class Ctx>
 using PacketStage = void (*KernelTable::*)(Packet&, const Ctx&) noexcept;
 
@@ -30,11 +35,18 @@ void add(const std::string& name, std::int64_t items,
         const auto body = [=](benchmark::State& state) {
             const std::string text = difference(*table);
             if (!text.empty()) return state.SkipWithError(("not the reference: " + text).c_str());
+            if (count_only) {
+                run(counted_kernels(*table), state);
+                state.counters["instructions"] = static_cast<double>(counted_instructions());
+                return;
+            }
             const std::uint64_t start = cycles_so_far();
             run(*table, state);
             count_items(state, items, cycles_so_far() - start);
         };
-        benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
+        auto* registered =
+            benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
+        if (count_only) registered->Iterations(1);
     }
 }
 
@@ -788,6 +800,9 @@ void add_models() {
 
 int main(int argc, char** argv) {
     using namespace burnish;
+    char** const end = std::remove(argv, argv + argc, std::string_view("--instructions"));
+    count_only = can_count_instructions() && end != argv + argc;
+    argc = static_cast<int>(end - argv);
     add_transform();
     add_light_vertices();
     add_rasterize();
