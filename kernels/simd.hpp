@@ -27,6 +27,7 @@ using I16 = ::xsimd::batch<std::int16_t, Arch>;
 using U16 = ::xsimd::batch<std::uint16_t, Arch>;
 using I32 = ::xsimd::batch<std::int32_t, Arch>;
 using F32 = ::xsimd::batch<float, Arch>;
+using F64 = ::xsimd::batch<double, Arch>;
 using Mask32 = ::xsimd::batch_bool<std::int32_t, Arch>;
 using MaskF = ::xsimd::batch_bool<float, Arch>;
 
@@ -82,6 +83,14 @@ inline F32 square_root(F32 a) {
 #endif
 }
 
+inline F64 divide(F64 a, F64 b) {
+#if defined(__aarch64__)
+    return vdivq_f64(a, b);
+#else
+    return a / b;
+#endif
+}
+
 /// The next lower whole number, -0 for -0: xsimd 8.1 makes 0 of it on neon64.
 inline F32 round_down(F32 a) {
 #if defined(__aarch64__)
@@ -98,6 +107,22 @@ inline I32 truncate(F32 v) {
 inline F32 to_float(I32 v) {
     return ::xsimd::to_float(v);
 }
+
+/// Bytes of a 128-bit vector of four elements that bring those whose bit is set to the front.
+struct PackPatterns {
+    alignas(16) std::uint8_t row[16][16];
+};
+constexpr PackPatterns make_pack_patterns() {
+    PackPatterns patterns{};
+    for (int bits = 0; bits < 16; ++bits) {
+        int n = 0;
+        for (int i = 0; i < 16; ++i) {
+            if ((bits >> i / 4 & 1) != 0) patterns.row[bits][n++] = static_cast<std::uint8_t>(i);
+        }
+    }
+    return patterns;
+}
+constexpr PackPatterns kPackPatterns = make_pack_patterns();
 
 #if defined(__AVX512BW__)
 
@@ -193,6 +218,30 @@ struct ShortTable {
 };
 inline I16 broadcast_lane(const void* p) {
     return _mm512_broadcast_i32x4(_mm_loadu_si128(static_cast<const __m128i*>(p)));
+}
+
+/// Numbers 0 .. kLanes32 / 2 - 1 (Half = 0) or the other ones in double, and the way back.
+template <int Half>
+inline F64 to_double(I32 v) {
+    return _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(v, Half));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, Half));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low)), _mm512_cvtpd_ps(high),
+                              1);
+}
+/// Lane K to memory.
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p), _mm512_extracti32x4_epi32(v, K));
+}
+/// The elements whose bit is set, one after the other; the rest of a vector behind them may be
+/// written as well.
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), v));
 }
 
 /// Lane k from p[k].
@@ -295,6 +344,33 @@ inline I16 broadcast_lane(const void* p) {
     return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
 
+template <int Half>
+inline F64 to_double(I32 v) {
+    return _mm256_cvtepi32_pd(_mm256_extracti128_si256(v, Half));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return _mm256_cvtps_pd(_mm256_extractf128_ps(v, Half));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(low)), _mm256_cvtpd_ps(high),
+                                1);
+}
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p), _mm256_extracti128_si256(v, K));
+}
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    const auto pattern = [](std::uint32_t four) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(kPackPatterns.row[four]));
+    };
+    const std::uint32_t low = bits & 15, high = bits >> 4;
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
+                     _mm_shuffle_epi8(_mm256_castsi256_si128(v), pattern(low)));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p + __builtin_popcount(low)),
+                     _mm_shuffle_epi8(_mm256_extracti128_si256(v, 1), pattern(high)));
+}
+
 inline I16 load_lanes(const void* const* p) {
     const auto lane = [&](int k) { return _mm_loadu_si128(static_cast<const __m128i*>(p[k])); };
     return _mm256_inserti128_si256(_mm256_castsi128_si256(lane(0)), lane(1), 1);
@@ -383,6 +459,27 @@ struct ShortTable {
 };
 inline I16 broadcast_lane(const void* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p));
+}
+
+template <int Half>
+inline F64 to_double(I32 v) {
+    return _mm_cvtepi32_pd(Half == 0 ? v : I32(_mm_unpackhi_epi64(v, v)));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return _mm_cvtps_pd(Half == 0 ? v : F32(_mm_movehl_ps(v, v)));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
+}
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    static_assert(K == 0);
+    _mm_storeu_si128(static_cast<__m128i*>(p), v);
+}
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    const __m128i* const pattern = reinterpret_cast<const __m128i*>(kPackPatterns.row[bits]);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_shuffle_epi8(v, _mm_load_si128(pattern)));
 }
 
 inline I16 load_lanes(const void* const* p) {
@@ -480,6 +577,27 @@ struct ShortTable {
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));
 }
+template <int Half>
+inline F64 to_double(I32 v) {
+    return vcvtq_f64_s64(vmovl_s32(Half == 0 ? vget_low_s32(v) : vget_high_s32(v)));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return vcvt_f64_f32(Half == 0 ? vget_low_f32(v) : vget_high_f32(v));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return vcvt_high_f32_f64(vcvt_f32_f64(low), high);
+}
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    static_assert(K == 0);
+    vst1q_s16(static_cast<int16_t*>(p), v);
+}
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    const uint8x16_t pattern = vld1q_u8(kPackPatterns.row[bits]);
+    vst1q_s32(p, vreinterpretq_s32_u8(vqtbl1q_u8(vreinterpretq_u8_s32(v), pattern)));
+}
+
 inline I16 load_lanes(const void* const* p) {
     return vld1q_s16(static_cast<const int16_t*>(p[0]));
 }
@@ -488,13 +606,30 @@ inline I16 load_lanes(const void* const* p) {
 #error "no vector wrappers for this architecture"
 #endif
 
+/// The same bits as other elements.
+inline I32 as_i32(I16 v) {
+    return ::xsimd::bitwise_cast<I32>(v);
+}
+inline I32 as_i32(F32 v) {
+    return ::xsimd::bitwise_cast<I32>(v);
+}
+inline F32 as_f32(I32 v) {
+    return ::xsimd::bitwise_cast<F32>(v);
+}
+inline I16 as_i16(I32 v) {
+    return ::xsimd::bitwise_cast<I16>(v);
+}
+inline I16 as_i16(F32 v) {
+    return ::xsimd::bitwise_cast<I16>(v);
+}
+
 /// Sign-extends the lower or upper half of each lane. Shifting down what was zipped with itself
 /// needs no zero register.
 inline I32 widen_lo(I16 v) {
-    return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(zip_lo16(v, v)) >> 16;
+    return as_i32(zip_lo16(v, v)) >> 16;
 }
 inline I32 widen_hi(I16 v) {
-    return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(zip_hi16(v, v)) >> 16;
+    return as_i32(zip_hi16(v, v)) >> 16;
 }
 
 inline I16 as_signed(U16 v) {

@@ -20,9 +20,9 @@ void set_rule(const DepthRule& rule, TileTriangle& triangle) {
 }  // namespace
 
 TileVisibility::TileVisibility()
-    : m_depth(kTilePixels),
+    : m_depth(kTilePixels + 1),
       m_block_far(kTileBlocks),
-      m_id(kTilePixels),
+      m_id(kTilePixels + 1),
       m_pixels(kTilePixels + kPixelSlack) {}
 
 void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth) {
@@ -46,6 +46,37 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
+    const std::span<const TileEntry> entries = chunk.tile(m_tile_x, m_tile_y);
+    const auto is_tiny = [](const TileEntry& entry) { return entry.covered != 0; };
+    for (auto first = entries.begin(); first != entries.end();) {
+        const bool tiny = is_tiny(*first);
+        const auto last = tiny ? std::find_if_not(first, entries.end(), is_tiny)
+                               : std::find_if(first, entries.end(), is_tiny);
+        if (tiny) {
+            draw_tiny(chunk, {first, last}, rules, kernels);
+        } else {
+            draw_others(chunk, {first, last}, rules, kernels);
+        }
+        first = last;
+    }
+}
+
+void TileVisibility::draw_tiny(const Chunk& chunk, std::span<const TileEntry> entries,
+                               std::span<const DepthRule> rules, const KernelTable& kernels) {
+    const SetupTriangle* const triangles = chunk.triangles().data();
+    const std::size_t first = m_triangles.size();
+    m_triangles.resize(first + entries.size());
+    m_drawn.resize(first + entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        m_triangles[first + i] = triangles + entries[i].triangle;
+    kernels.rasterize_tiny({entries.data(), static_cast<int>(entries.size()), triangles,
+                            rules[m_triangles[first]->draw], left(), top(),
+                            static_cast<std::uint32_t>(first), m_depth.data(), m_id.data(),
+                            m_block_far.data(), m_drawn.data() + first});
+}
+
+void TileVisibility::draw_others(const Chunk& chunk, std::span<const TileEntry> entries,
+                                 std::span<const DepthRule> rules, const KernelTable& kernels) {
     TileTriangle batch[kBatch];
     std::uint64_t drawn[kBatch];
     RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data(), drawn};
@@ -54,13 +85,12 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
         m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
         ctx.count = 0;
     };
-    const std::span<const std::uint32_t> entries = chunk.tile(m_tile_x, m_tile_y);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         constexpr std::size_t kAhead = 4;  // a mesh's triangles lie far apart along a tile
         if (i + kAhead < entries.size()) {
-            __builtin_prefetch(&chunk.triangles()[entries[i + kAhead]]);
+            __builtin_prefetch(&chunk.triangles()[entries[i + kAhead].triangle]);
         }
-        const SetupTriangle& triangle = chunk.triangles()[entries[i]];
+        const SetupTriangle& triangle = chunk.triangles()[entries[i].triangle];
         TileTriangle& seen = batch[ctx.count];
         if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) continue;
         const DepthRule& rule = rules[triangle.draw];
