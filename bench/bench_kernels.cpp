@@ -164,6 +164,10 @@ struct Tile {
         table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
                          id.data(), block_far.data(), drawn.data()});
     }
+    void draw_depths(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
+        table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
+                         nullptr, block_far.data(), nullptr});
+    }
 };
 
 /// Adds the edge a * x + b * y >= limit (with `open`: > limit), x and y in pixels.
@@ -224,6 +228,27 @@ void add_rasterize() {
                 Tile tile;
                 for (auto _ : state) {
                     tile.draw(table, triangles);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+void add_rasterize_depths() {
+    for (const int side : {4, 16, 64}) {
+        const std::vector<TileTriangle> triangles = squares(side);
+        add(
+            "rasterize_depths/squares_" + std::to_string(side), kTilePixels,
+            [=](const KernelTable& table) -> std::string {
+                Tile got, want;
+                got.draw_depths(table, triangles);
+                want.draw(table_reference(), triangles);
+                return got.depth == want.depth ? "" : "depths";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                Tile tile;
+                for (auto _ : state) {
+                    tile.draw_depths(table, triangles);
                     benchmark::ClobberMemory();
                 }
             });
@@ -766,6 +791,7 @@ int main(int argc, char** argv) {
     add_transform();
     add_light_vertices();
     add_rasterize();
+    add_rasterize_depths();
     add_collect();
     add_attribute_planes();
     add_attributes();

@@ -120,18 +120,19 @@ bool passes(const Rule& rule, float depth, float old) {
 void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int k = 0; k < ctx.count; ++k) {
         const TileTriangle& t = ctx.triangles[k];
-        ctx.drawn[k] = 0;
+        std::uint64_t drawn = 0;
         for (int y = t.y0; y <= t.y1; ++y) {
             for (int x = t.x0; x <= t.x1; ++x) {
                 if (!covers(t, x, y)) continue;
                 const int pixel = tile_index(x, y);
                 const float depth = depth_at(t, x, y);
                 if (!passes(t, depth, ctx.depth[pixel])) continue;
-                ctx.id[pixel] = t.id;
-                ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
+                if (ctx.id != nullptr) ctx.id[pixel] = t.id;
+                drawn |= std::uint64_t{1} << pixel / kBlockPixels;
                 if (t.depth_write != 0) ctx.depth[pixel] = depth;
             }
         }
+        if (ctx.id != nullptr) ctx.drawn[k] = drawn;
     }
     for (int block = 0; block < kTileBlocks; ++block) {
         const float* depth = ctx.depth + block * kBlockPixels;

@@ -161,12 +161,13 @@ struct TileTriangle {
 /// are replaced. Equal depths compare equal; there are no NaNs.
 /// `block_far[k]` is an upper bound of the depths of block k, kept up to date; kernels may skip a
 /// block by it only where no fragment of it could pass. Bit k of a triangle's `drawn` tells whether
-/// a fragment of it passed in block k.
+/// a fragment of it passed in block k. Depths alone: where `id` is null there are no ids, and
+/// `drawn` is left as it is.
 struct RasterizeCtx {
     const TileTriangle* triangles;
     int count;
     float* depth;          ///< kTilePixels
-    std::uint32_t* id;     ///< kTilePixels
+    std::uint32_t* id;     ///< kTilePixels, or null
     float* block_far;      ///< kTileBlocks
     std::uint64_t* drawn;  ///< out, `count` elements
 };

@@ -178,7 +178,9 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
                        static_cast<int>(m_depth_runs.size()), m_tile.output, m_stored.data(),
                        m_packet);
     }
-    if (m_draw.shown != nullptr) {
+    if (m_tile.output.pixels == nullptr) {
+        // The tests have left the depths.
+    } else if (m_draw.shown != nullptr) {
         show_values(kernels);
     } else {
         write_colors(shading, output.blend, kernels);
