@@ -295,14 +295,14 @@ void cover(const CoverCtx& ctx) noexcept {
 void collect(const CollectCtx& ctx) noexcept {
     std::uint16_t* out = ctx.pixels;
     for (int k = 0; k < ctx.count; ++k) {
-        std::uint16_t* const first = out;
+        ctx.first[k] = static_cast<std::uint32_t>(out - ctx.pixels);
         for (int pixel = 0; pixel < kTilePixels; ++pixel) {
             const bool drawn = (ctx.drawn[k] >> pixel / kBlockPixels & 1) != 0;
             if (drawn && ctx.id[pixel] == static_cast<std::uint32_t>(k))
                 *out++ = static_cast<std::uint16_t>(pixel);
         }
-        ctx.size[k] = static_cast<std::uint16_t>(out - first);
     }
+    ctx.first[ctx.count] = static_cast<std::uint32_t>(out - ctx.pixels);
 }
 
 // ---- from triangles to registers

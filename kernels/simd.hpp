@@ -212,6 +212,15 @@ inline F32 to_float(const Doubles& v) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(v.low)),
                               _mm512_cvtpd_ps(v.high), 1);
 }
+/// Writes first + k for every lane k of `which`, rising; returns the end. May write kLanes32
+/// values.
+inline std::uint16_t* append_lanes(std::uint16_t* out, int first, Mask32 which) {
+    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i value = _mm512_add_epi32(lane, _mm512_set1_epi32(first));
+    const __m512i packed = _mm512_maskz_compress_epi32(which.data, value);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm512_cvtepi32_epi16(packed));
+    return out + __builtin_popcount(which.data);
+}
 /// Lane k of the result is lane index[k], 0 .. kLanes32 - 1.
 struct LaneOrder {
     explicit LaneOrder(I32 index) : order(index) {}
@@ -778,6 +787,35 @@ inline I32 widen_lo(I16 v) {
 inline I32 widen_hi(I16 v) {
     return as_i32(zip_hi16(v, v)) >> 16;
 }
+
+#if !defined(__AVX512BW__)
+/// Set bits of a byte as 16-bit positions, packed to the front.
+struct BitPositions {
+    alignas(16) std::uint16_t row[1 << kLanes32][8];
+};
+constexpr BitPositions make_bit_positions() {
+    BitPositions table{};
+    for (int lanes = 0; lanes < 1 << kLanes32; ++lanes) {
+        int n = 0;
+        for (int bit = 0; bit < kLanes32; ++bit) {
+            if ((lanes >> bit & 1) != 0) table.row[lanes][n++] = static_cast<std::uint16_t>(bit);
+        }
+    }
+    return table;
+}
+constexpr BitPositions kBitPositions = make_bit_positions();
+
+/// The sums do not carry from one 16-bit part of a word to the next.
+inline std::uint16_t* append_lanes(std::uint16_t* out, int first, Mask32 which) {
+    constexpr std::uint64_t kOnes = 0x0001000100010001U;
+    const std::uint32_t lanes = bits(which);
+    std::uint64_t words[kLanes32 / 4];
+    __builtin_memcpy(words, kBitPositions.row[lanes], sizeof words);
+    for (std::uint64_t& word : words) word += static_cast<std::uint64_t>(first) * kOnes;
+    __builtin_memcpy(out, words, sizeof words);
+    return out + __builtin_popcount(lanes);
+}
+#endif
 
 /// Four vectors of 32-bit numbers.
 struct Columns {
