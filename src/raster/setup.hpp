@@ -25,4 +25,8 @@ SetupResult setup_triangle(const ScreenVertex& v0, const ScreenVertex& v1, const
 bool tile_triangle(const SetupTriangle& triangle, std::int32_t tile_x, std::int32_t tile_y,
                    TileTriangle& out);
 
+/// Whether the triangle covers all pixels of the frame that lie in a tile.
+bool covers_tile(const SetupTriangle& triangle, std::int32_t tile_x, std::int32_t tile_y,
+                 FrameSize frame);
+
 }  // namespace burnish
