@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/cpu.hpp"
+#include "core/frame_account.hpp"
 #include "draw.hpp"
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
@@ -30,6 +31,12 @@ std::int32_t tile_count(std::int32_t pixels) {
     return (pixels + kTileSize - 1) / kTileSize;
 }
 
+/// Pixels of the frame in tile (x, y).
+std::uint64_t pixels_of(FrameSize frame, std::int32_t x, std::int32_t y) {
+    return static_cast<std::uint64_t>(std::min(kTileSize, frame.width - x * kTileSize)) *
+           static_cast<std::uint64_t>(std::min(kTileSize, frame.height - y * kTileSize));
+}
+
 /// Triangles `first` .. `last` - 1 of draw `draw`.
 struct ChunkRange {
     std::uint32_t draw;
@@ -44,6 +51,7 @@ struct Worker {
     TileImage image;
     bool has_background = false;  ///< pixels that no fragment wrote are what they should be
     std::uint64_t tiles = 0;
+    StageClock* clock = nullptr;  ///< while the frame is accounted for
 };
 
 void require_machine(const Scene& scene, const char* shown) {
@@ -66,15 +74,21 @@ void require_colors(const Framebuffer& target, const char* shown) {
 
 struct Renderer::State {
     State(const RendererOptions& options)
-        : kernels(select_table(options.isa)),
-          pool(options.threads),
+        : pool(options.threads),
+          account(options.accounting
+                      ? std::make_unique<FrameAccount>(select_table(options.isa), pool.size())
+                      : nullptr),
+          kernels(account ? account->timed() : select_table(options.isa)),
           memory_cap(options.memory_cap),
-          double_samples(options.double_samples) {}
+          double_samples(options.double_samples) {
+        pool.keep_account(account.get());
+    }
 
     void prepare(const Scene& scene, const Framebuffer& target,
                  const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
+    void weigh_tiles(std::int32_t columns, std::size_t count);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
@@ -84,8 +98,9 @@ struct Renderer::State {
     float* saved_depth(std::int32_t x, std::int32_t y);
     OutputTile output_of(Worker& worker) const;
 
-    const KernelTable& kernels;
     WorkerPool pool;
+    std::unique_ptr<FrameAccount> account;  ///< null: nobody asked
+    const KernelTable& kernels;
     std::size_t memory_cap;
     int double_samples;
 
@@ -101,7 +116,9 @@ struct Renderer::State {
     std::vector<std::unique_ptr<Chunk>> chunks;
     std::size_t chunk_count = 0;  ///< of this round
     std::vector<std::unique_ptr<Worker>> workers;
-    AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
+    std::vector<std::uint32_t> weights;  ///< of tiles
+    WorkOrder order;                     ///< of tiles
+    AlignedVector<float> depth;          ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
     HalfVectorCube half_cube;
 };
@@ -147,6 +164,12 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
                                   std::optional<Aov> aov) {
     State& s = *m_state;
     FrameStats stats;
+    std::optional<ClockLoan> clock;
+    if (s.account) {
+        s.account->start(static_cast<std::size_t>(tile_count(target.width())) *
+                         static_cast<std::size_t>(tile_count(target.height())));
+        clock.emplace(s.account->clock(0), StageClock::place(FrameStage::prepare));
+    }
     try {
         const auto start = Clock::now();
         s.prepare(scene, target, shown, aov);
@@ -171,6 +194,8 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
         stats.shaded_pixels += worker->shader.shaded_pixels();
         stats.tiles_per_worker.push_back(worker->tiles);
     }
+    clock.reset();
+    if (s.account) s.account->finish(stats);
     return stats;
 }
 
@@ -209,11 +234,16 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
         }
     }
     maps.drop_unused();
+    if (account) {
+        account->clock(0).count(StageClock::place(FrameStage::prepare), scene.objects.size());
+    }
     if (!workers.empty() && workers.front()->image.format() != target.format()) workers.clear();
     while (workers.size() < static_cast<std::size_t>(pool.size())) {
         workers.push_back(std::make_unique<Worker>(target.format()));
     }
-    for (const auto& worker : workers) {
+    for (std::size_t i = 0; i < workers.size(); ++i) {
+        const auto& worker = workers[i];
+        worker->clock = account ? &account->clock(static_cast<int>(i)) : nullptr;
         worker->tiles = 0;
         worker->image.set_background(depth_alone ? background_of(Aov::depth)
                                      : aov       ? background_of(*aov)
@@ -223,6 +253,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
 }
 
 void Renderer::State::transform(const Scene& scene) {
+    const StageScope scope(FrameStage::transform);
     depth_rules.clear();
     overwrites.clear();
     shaded_draws.clear();
@@ -244,6 +275,7 @@ void Renderer::State::transform(const Scene& scene) {
 
 /// Chunks in order until all are binned or the memory cap is met; at least one.
 void Renderer::State::bin(FrameStats& stats) {
+    const StageScope scope(FrameStage::bin);
     const std::size_t first = next_range;
     const std::size_t left = ranges.size() - first;
     while (chunks.size() < left) chunks.push_back(std::make_unique<Chunk>());
@@ -289,15 +321,35 @@ float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
 }
 
 void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool last_round) {
+    const StageScope scope(FrameStage::packets);
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (!last_round) depth.resize(count * kTilePixels);
-    for_each_index(pool, count, 1, [&](std::size_t i, int w) {
+    weigh_tiles(columns, count);
+    order_work(weights, pool.size(), order);
+    for_each_piece(pool, order, [&](std::size_t i, int w) {
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
         ++worker.tiles;
+        const std::uint64_t start = account ? ticks() : 0,
+                            fragments = worker.shader.shaded_pixels();
         draw_tile(worker, tile % columns, tile / columns, target, first_round, last_round);
+        if (account)
+            account->add_tile(i, ticks() - start, weights[i],
+                              worker.shader.shaded_pixels() - fragments);
     });
+}
+
+/// What a tile will cost: its triangles, and its pixels if there are any.
+void Renderer::State::weigh_tiles(std::int32_t columns, std::size_t count) {
+    constexpr std::uint32_t kPixels =
+        200;  // shading a whole tile costs as much as so many triangles
+    weights.assign(count, 0);
+    if (pool.size() == 1 && !account) return;
+    for (std::size_t i = 0; i < chunk_count; ++i)
+        chunks[i]->add_lengths(weights, static_cast<std::size_t>(columns));
+    for (std::uint32_t& weight : weights)
+        if (weight > 0) weight += kPixels;
 }
 
 /// Everything of one tile, in one worker's cache, then once to the frame. Draws that need no order
@@ -310,9 +362,13 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     const bool empty = std::all_of(binned.begin(), binned.end(),
                                    [&](const auto& chunk) { return chunk->tile(x, y).empty(); });
     if (empty && first_round && last_round) {
+        const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
         return worker.image.resolve_empty(target, x * kTileSize, y * kTileSize);
     }
-    visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+    {
+        const StageScope scope(FrameStage::coverage, 0, worker.clock);
+        visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+    }
     worker.has_background = false;
     if (!first_round && !depth_alone) {
         worker.image.load(target, visibility.left(), visibility.top());
@@ -328,6 +384,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
             draw_ordered(worker, *chunk, triangles);
         } else {
             worker.shader.flush(kernels);
+            const StageScope scope(FrameStage::coverage, 0, worker.clock);
             depth_alone ? visibility.draw_depths(*chunk, depth_rules, kernels)
                         : visibility.draw(*chunk, depth_rules, kernels);
         }
@@ -335,6 +392,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     worker.shader.flush(kernels);
     shade_visible(worker);
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
+    const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
     if (!depth_alone) {
         worker.image.resolve(target, visibility.left(), visibility.top());
     } else if (last_round) {
@@ -367,8 +425,14 @@ OutputTile Renderer::State::output_of(Worker& worker) const {
 void Renderer::State::shade_visible(Worker& worker) {
     if (depth_alone) return;
     TileFragments fragments{};
-    if (worker.visibility.shows_anything()) fragments = worker.visibility.collect(kernels);
-    if (!worker.has_background && fragments.count < kTilePixels) worker.image.clear();
+    if (worker.visibility.shows_anything()) {
+        const StageScope scope(FrameStage::coverage, 0, worker.clock);
+        fragments = worker.visibility.collect(kernels);
+    }
+    if (!worker.has_background && fragments.count < kTilePixels) {
+        const StageScope scope(FrameStage::resolve, 0, worker.clock);
+        worker.image.clear();
+    }
     worker.has_background = true;
     if (fragments.count == 0) return;
     worker.shader.shade(fragments, shaded_draws, kernels);
@@ -381,8 +445,10 @@ void Renderer::State::draw_ordered(Worker& worker, const Chunk& chunk,
     worker.shader.start_draw(shaded_draws[chunk.triangles()[triangles.front()].draw], kernels);
     for (const std::uint32_t i : triangles) {
         const SetupTriangle& triangle = chunk.triangles()[i];
-        if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed)) {
-            continue;
+        {
+            const StageScope scope(FrameStage::coverage, 0, worker.clock);
+            if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed))
+                continue;
         }
         worker.shader.add(triangle, passed, kernels);
     }

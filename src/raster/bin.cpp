@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/stage_clock.hpp"
 #include "geometry/clip.hpp"
 
 namespace burnish {
@@ -35,7 +36,17 @@ std::span<const std::uint32_t> Chunk::tile(std::int32_t x, std::int32_t y) const
     return std::span(m_entries).subspan(m_first[at], m_first[at + 1] - m_first[at]);
 }
 
+void Chunk::add_lengths(std::span<std::uint32_t> lengths, std::size_t columns) const {
+    std::size_t entry = 0;
+    for (std::int32_t y = m_y0; y < m_y0 + m_height; ++y) {
+        std::uint32_t* row = lengths.data() + static_cast<std::size_t>(y) * columns;
+        for (std::int32_t x = m_x0; x < m_x0 + m_width; ++x, ++entry)
+            row[x] += m_first[entry + 1] - m_first[entry];
+    }
+}
+
 void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last) {
+    const StageScope setup(FrameStage::setup, last - first);
     m_triangles.clear();
     m_unsorted.clear();
     m_counts = {};
@@ -46,6 +57,7 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last)
             {static_cast<std::uint32_t>(i / 3), {indices[i], indices[i + 1], indices[i + 2]}});
     }
     m_counts.binned = m_triangles.size();
+    const StageScope scope(FrameStage::bin, m_counts.binned);
     sort_into_tiles(source.frame);
 }
 
