@@ -140,6 +140,9 @@ inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& ed
 }
 
 /// The usual rule: nearer fragments win and leave their depth.
+inline bool nearer_wins(const TileTriangle& t) {
+    return t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
+}
 struct NearerWins {
     static MaskF pass(const TileTriangle&, F32 z, F32 old) { return z < old; }
     static bool writes(const TileTriangle&) { return true; }
@@ -327,9 +330,8 @@ std::uint64_t rasterize_any(const TileTriangle& t, const RasterizeCtx& ctx) {
 
 template <class Trace>
 std::uint64_t rasterize_by_rule(const TileTriangle& t, const RasterizeCtx& ctx) {
-    const bool usual =
-        t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
-    return usual ? rasterize_any<NearerWins, Trace>(t, ctx) : rasterize_any<AnyRule, Trace>(t, ctx);
+    return nearer_wins(t) ? rasterize_any<NearerWins, Trace>(t, ctx)
+                          : rasterize_any<AnyRule, Trace>(t, ctx);
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
@@ -356,7 +358,8 @@ inline std::uint64_t box_pixels(const TileTriangle& t, int x, int y) {
     return (columns & 0xffU) * 0x0101010101010101U & rows;
 }
 
-void cover(const CoverCtx& ctx) noexcept {
+template <class Rule>
+void cover_by(const CoverCtx& ctx) {
     const TileTriangle& t = *ctx.triangle;
     TriangleEdges edges;
     set_edges(t, edges);
@@ -366,11 +369,14 @@ void cover(const CoverCtx& ctx) noexcept {
         const int block = __builtin_ctzll(rest);
         const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
         LeaveBit trace;
-        draw_block<AnyRule>(t, edges, masks, block, ctx.depth, trace);
+        draw_block<Rule>(t, edges, masks, block, ctx.depth, trace);
         const std::uint64_t passed = trace.passed & box_pixels(t, x, y);
         if (passed == 0) continue;
         ctx.passed[block] = passed;
         blocks |= std::uint64_t{1} << block;
     }
     *ctx.blocks = blocks;
+}
+void cover(const CoverCtx& ctx) noexcept {
+    nearer_wins(*ctx.triangle) ? cover_by<NearerWins>(ctx) : cover_by<AnyRule>(ctx);
 }
