@@ -638,6 +638,11 @@ void add_levels() {
                      FetchHiloCtx{texels.data(), 20, 2112}, {.planes = {20, 21}});
     add_packet_stage("fetch_words", &KernelTable::fetch_words, packet,
                      FetchWordsCtx{texels.data(), 20, 2112}, {.planes = {20, 21, 22, 23}});
+    for (std::int32_t& texel : packet.texel) texel = 4 * texel % 4096;
+    Written fetched;
+    for (int plane = 16; plane < 32; ++plane) fetched.planes.push_back(plane);
+    add_packet_stage("fetch_quartet", &KernelTable::fetch_quartet, packet,
+                     FetchQuartetCtx{texels.data(), {16, 20, 24, 28}, 2112}, fetched);
     add_packet_stage("hilo", &KernelTable::hilo, packet, HiloCtx{5, 7, 0}, {.attributes = {7, 8}});
 }
 
