@@ -129,18 +129,25 @@ struct AnyRule {
 
 /// Fragments that pass leave the triangle's id; whether there were any.
 struct LeaveId {
-    LeaveId(const TileTriangle& t, std::uint32_t* block_id)
+    LeaveId(const TileTriangle& t, const RasterizeCtx& ctx, int block)
         : new_id(static_cast<std::int32_t>(t.id)),
           any(false),
-          id(reinterpret_cast<std::int32_t*>(block_id)) {}
+          id(reinterpret_cast<std::int32_t*>(ctx.id + block * kBlockPixels)) {}
     void take(int v, Mask32 write) {
         any = any | write;
         std::int32_t* const ids = id + v * kLanes32;
         store(ids, ::xsimd::select(write, new_id, load(ids)));
     }
+    [[nodiscard]] std::uint64_t passed() const { return bits(any) != 0 ? 1 : 0; }
     I32 new_id;
     Mask32 any;
     std::int32_t* id;
+};
+/// Depths alone.
+struct LeaveNothing {
+    LeaveNothing(const TileTriangle&, const RasterizeCtx&, int) {}
+    void take(int, Mask32) {}
+    [[nodiscard]] static std::uint64_t passed() { return 0; }
 };
 /// Fragments that pass leave a bit.
 struct LeaveBit {
@@ -202,8 +209,8 @@ inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, 
     return farthest < far ? farthest : far;
 }
 
-/// Returns the blocks in which a fragment passed.
-template <class Rule>
+/// Returns the blocks in which a fragment passed, as far as `Trace` knows.
+template <class Rule, class Trace>
 std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
     std::uint64_t drawn = 0;
     TriangleEdges edges;
@@ -214,11 +221,10 @@ std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx)
         const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
         const bool crossed = (masks.crossed >> block & 1) != 0;
         float* const depth = ctx.depth + block * kBlockPixels;
-        std::uint32_t* const id = ctx.id + block * kBlockPixels;
-        LeaveId trace(t, id);
+        Trace trace(t, ctx, block);
         crossed ? draw_block<true, Rule>(t, edges, x, y, depth, trace)
                 : draw_block<false, Rule>(t, edges, x, y, depth, trace);
-        drawn |= static_cast<std::uint64_t>(bits(trace.any) != 0 ? 1 : 0) << block;
+        drawn |= trace.passed() << block;
         float& far = ctx.block_far[block];
         far = updated_far(t, x, y, !crossed, far);
     }
@@ -231,7 +237,7 @@ inline bool is_small(const TileTriangle& t) {
 }
 
 /// The same for small triangles, which are done before blocks could be classified.
-template <class Rule>
+template <class Rule, class Trace>
 std::uint64_t rasterize_small(const TileTriangle& t, const RasterizeCtx& ctx) {
     std::int32_t a[3] = {}, b[3] = {}, c[3] = {};
     I32 lanes[3] = {I32(0), I32(0), I32(0)};
@@ -252,7 +258,7 @@ std::uint64_t rasterize_small(const TileTriangle& t, const RasterizeCtx& ctx) {
         for (int left = t.x0 & ~kLast; left <= t.x1; left += kBlockSize) {
             const int block = top + left / kBlockSize;
             float* const depth = ctx.depth + block * kBlockPixels;
-            LeaveId trace(t, ctx.id + block * kBlockPixels);
+            Trace trace(t, ctx, block);
             for (int v = first; v < end; ++v) {
                 const int x = left + v % kRowVectors * kLanes32;
                 const int y = top + v / kRowVectors * kVectorRows;
@@ -267,7 +273,7 @@ std::uint64_t rasterize_small(const TileTriangle& t, const RasterizeCtx& ctx) {
                 if (Rule::writes(t))
                     store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
             }
-            drawn |= static_cast<std::uint64_t>(bits(trace.any) != 0 ? 1 : 0) << block;
+            drawn |= trace.passed() << block;
             float& far = ctx.block_far[block];
             far = updated_far(t, left, top, false, far);
         }
@@ -275,17 +281,28 @@ std::uint64_t rasterize_small(const TileTriangle& t, const RasterizeCtx& ctx) {
     return drawn;
 }
 
-template <class Rule>
+template <class Rule, class Trace>
 std::uint64_t rasterize_any(const TileTriangle& t, const RasterizeCtx& ctx) {
-    return is_small(t) ? rasterize_small<Rule>(t, ctx) : rasterize_triangle<Rule>(t, ctx);
+    return is_small(t) ? rasterize_small<Rule, Trace>(t, ctx)
+                       : rasterize_triangle<Rule, Trace>(t, ctx);
+}
+
+template <class Trace>
+std::uint64_t rasterize_by_rule(const TileTriangle& t, const RasterizeCtx& ctx) {
+    const bool usual =
+        t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
+    return usual ? rasterize_any<NearerWins, Trace>(t, ctx) : rasterize_any<AnyRule, Trace>(t, ctx);
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
+    if (ctx.id == nullptr) {
+        for (int i = 0; i < ctx.count; ++i) {
+            rasterize_by_rule<LeaveNothing>(ctx.triangles[i], ctx);
+        }
+        return;
+    }
     for (int i = 0; i < ctx.count; ++i) {
-        const TileTriangle& t = ctx.triangles[i];
-        const bool usual =
-            t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
-        ctx.drawn[i] = usual ? rasterize_any<NearerWins>(t, ctx) : rasterize_any<AnyRule>(t, ctx);
+        ctx.drawn[i] = rasterize_by_rule<LeaveId>(ctx.triangles[i], ctx);
     }
 }
 

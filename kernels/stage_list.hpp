@@ -13,7 +13,8 @@
     X(light_vertices, LightVerticesCtx) \
     X(rasterize, RasterizeCtx)          \
     X(cover, CoverCtx)                  \
-    X(collect, CollectCtx)
+    X(collect, CollectCtx)              \
+    X(attribute_planes, AttributePlanesCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
 #define BURNISH_PACKET_STAGES(X)          \

@@ -62,8 +62,12 @@ void require_machine(const Scene& scene, const char* shown) {
                             shown));
 }
 
-StoreFormat store_format(PixelFormat format) {
-    return static_cast<StoreFormat>(format);
+void require_colors(const Framebuffer& target, const char* shown) {
+    if (target.format() != PixelFormat::depth32f) return;
+    throw Error(ErrorCode::bad_option,
+                fmt::format("{} into a frame of depths, which takes the depth buffer alone; "
+                            "expected a frame of colours",
+                            shown));
 }
 
 }  // namespace
@@ -91,6 +95,7 @@ struct Renderer::State {
     void shade_visible(Worker& worker);
     void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const std::uint32_t> triangles);
     float* saved_depth(std::int32_t x, std::int32_t y);
+    OutputTile output_of(Worker& worker) const;
 
     WorkerPool pool;
     std::unique_ptr<FrameAccount> account;  ///< null: nobody asked
@@ -99,6 +104,7 @@ struct Renderer::State {
     int double_samples;
 
     FrameView frame{};
+    bool depth_alone = false;  ///< the frame shows the depth buffer: fragments have no colours
     FrameSize size{};
     std::vector<std::unique_ptr<Draw>> draws;
     std::vector<DepthRule> depth_rules;
@@ -129,6 +135,7 @@ int Renderer::threads() const noexcept {
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
     if (scene.machine.double_precision) {
+        if (target.format() == PixelFormat::depth32f) require_machine(scene, "a frame of depths");
         scene.machine.validate();
         return render_double(scene, target, m_state->pool, {.samples = m_state->double_samples});
     }
@@ -137,12 +144,14 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, const ShownRegister& shown) {
     require_machine(scene, "a register");
+    require_colors(target, "a register");
     require_showable(shown.reg, scene.machine);
     return render_shown(scene, target, shown, std::nullopt);
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) {
     require_machine(scene, "geometry");
+    require_colors(target, "geometry");
     return render_shown(scene, target, std::nullopt, shown);
 }
 
@@ -205,12 +214,18 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     ranges.clear();
     next_range = 0;
     std::size_t triangles = 0;
+    bool all_write_depths = true;
     for (std::size_t i = 0; i < draws.size(); ++i) {
         prepare_draw(*draws[i], frame, scene.objects[i], maps);
         triangles += draws[i]->triangle_count();
+        all_write_depths = all_write_depths && draws[i]->output.depth.write != 0;
     }
+    // The depths of the fragments seen last are then what the depth buffer holds.
+    depth_alone =
+        target.format() == PixelFormat::depth32f || (aov == Aov::depth && all_write_depths);
     const std::size_t step = chunk_size(size, triangles);
     for (std::uint32_t i = 0; i < draws.size(); ++i) {
+        if (depth_alone && draws[i]->output.depth.write == 0) continue;
         const std::size_t count = draws[i]->triangle_count();
         for (std::size_t first = 0; first < count; first += step) {
             ranges.push_back({i, first, std::min(first + step, count)});
@@ -228,7 +243,9 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
         const auto& worker = workers[i];
         worker->clock = account ? &account->clock(static_cast<int>(i)) : nullptr;
         worker->tiles = 0;
-        worker->image.set_background(aov ? background_of(*aov) : scene.background);
+        worker->image.set_background(depth_alone ? background_of(Aov::depth)
+                                     : aov       ? background_of(*aov)
+                                                 : scene.background);
         worker->shader.reset_count();
     }
 }
@@ -239,6 +256,7 @@ void Renderer::State::transform(const Scene& scene) {
     shaded_draws.clear();
     for (std::size_t i = 0; i < draws.size(); ++i) {
         Draw& draw = *draws[i];
+        draw.shaded = !depth_alone || draw.output.late_depth;
         transform_draw(draw, frame, scene.objects[i], kernels, pool);
         depth_rules.push_back(draw.depth);
         shaded_draws.push_back(
@@ -343,14 +361,11 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
     }
     worker.has_background = false;
-    if (!first_round) {
+    if (!first_round && !depth_alone) {
         worker.image.load(target, visibility.left(), visibility.top());
         worker.has_background = true;
     }
-    worker.shader.begin({visibility.left(),
-                         visibility.top(),
-                         {store_format(worker.image.format()), worker.image.pixels(),
-                          visibility.depth(), visibility.block_far()}});
+    worker.shader.begin({visibility.left(), visibility.top(), output_of(worker)});
     for (const auto& chunk : binned) {
         const std::span<const std::uint32_t> triangles = chunk->tile(x, y);
         if (triangles.empty()) continue;
@@ -361,18 +376,33 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         } else {
             worker.shader.flush(kernels);
             const StageScope scope(FrameStage::coverage, 0, worker.clock);
-            visibility.draw(*chunk, depth_rules, kernels);
+            depth_alone ? visibility.draw_depths(*chunk, depth_rules, kernels)
+                        : visibility.draw(*chunk, depth_rules, kernels);
         }
     }
     worker.shader.flush(kernels);
     shade_visible(worker);
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
     const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
-    worker.image.resolve(target, visibility.left(), visibility.top());
+    if (!depth_alone) {
+        worker.image.resolve(target, visibility.left(), visibility.top());
+    } else if (last_round) {
+        worker.image.resolve_depths(visibility.depth(), target, visibility.left(),
+                                    visibility.top());
+    }
 }
 
-/// Shades what the visibility buffer holds. Afterwards every pixel of the tile has a colour.
+OutputTile Renderer::State::output_of(Worker& worker) const {
+    TileVisibility& visibility = worker.visibility;
+    if (depth_alone) return {{}, nullptr, visibility.depth(), visibility.block_far()};
+    return {static_cast<StoreFormat>(worker.image.format()), worker.image.pixels(),
+            visibility.depth(), visibility.block_far()};
+}
+
+/// Shades what the visibility buffer holds. Afterwards every pixel of the tile has a colour, if the
+/// frame has any.
 void Renderer::State::shade_visible(Worker& worker) {
+    if (depth_alone) return;
     TileFragments fragments{};
     if (worker.visibility.shows_anything()) {
         const StageScope scope(FrameStage::coverage, 0, worker.clock);

@@ -24,6 +24,7 @@ constexpr Family kFamilies[] = {
     {"cover", FrameStage::coverage, true},
     {"collect", FrameStage::coverage},
     {"attributes", FrameStage::interpolate, true},
+    {"attribute_planes", FrameStage::interpolate},
     {"lighting", FrameStage::interpolate},
     {"encode_", FrameStage::interpolate},
     {"fetch_", FrameStage::texture, true},

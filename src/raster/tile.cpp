@@ -31,7 +31,6 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
     m_frame = frame;
     m_triangles.clear();
     m_drawn.clear();
-    std::fill(m_id.begin(), m_id.end(), kNoTriangle);
     if (depth == nullptr) {
         std::fill(m_depth.begin(), m_depth.end(), 1.0F);
         std::fill(m_block_far.begin(), m_block_far.end(), 1.0F);
@@ -46,12 +45,24 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
+    if (!shows_anything()) std::fill(m_id.begin(), m_id.end(), kNoTriangle);
+    draw_triangles(chunk, rules, kernels, m_id.data());
+}
+
+void TileVisibility::draw_depths(const Chunk& chunk, std::span<const DepthRule> rules,
+                                 const KernelTable& kernels) {
+    draw_triangles(chunk, rules, kernels, nullptr);
+}
+
+/// `id`: the visibility buffer, or null for the depths alone.
+void TileVisibility::draw_triangles(const Chunk& chunk, std::span<const DepthRule> rules,
+                                    const KernelTable& kernels, std::uint32_t* id) {
     TileTriangle batch[kBatch];
     std::uint64_t drawn[kBatch];
-    RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data(), drawn};
+    RasterizeCtx ctx{batch, 0, m_depth.data(), id, m_block_far.data(), drawn};
     const auto flush = [&] {
         kernels.rasterize(ctx);
-        m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
+        if (id != nullptr) m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
         ctx.count = 0;
     };
     const std::span<const std::uint32_t> entries = chunk.tile(m_tile_x, m_tile_y);
@@ -66,7 +77,7 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
         const DepthRule& rule = rules[triangle.draw];
         seen.id = static_cast<std::uint32_t>(m_triangles.size());
         set_rule(rule, seen);
-        m_triangles.push_back(&triangle);
+        if (id != nullptr) m_triangles.push_back(&triangle);
         if (++ctx.count == kBatch) flush();
     }
     if (ctx.count > 0) flush();
@@ -93,10 +104,8 @@ TileFragments TileVisibility::collect(const KernelTable& kernels) {
 }
 
 void TileVisibility::forget() {
-    if (!shows_anything()) return;
     m_triangles.clear();
     m_drawn.clear();
-    std::fill(m_id.begin(), m_id.end(), kNoTriangle);
 }
 
 bool TileVisibility::cover(const SetupTriangle& triangle, const DepthRule& rule,

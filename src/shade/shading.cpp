@@ -519,23 +519,4 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     if (programs.size() > 1) plan_sums(shading);
 }
 
-void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out) {
-    if (shading.frame_attributes > 0) {
-        const VertexFrame& f = shading.frames[vertex];
-        *out++ = f.uv.x;
-        *out++ = 1.0F - f.uv.y;  // rows of a texture go down, v goes up
-    }
-    if (shading.frame_attributes > kUvAttributes) {
-        const VertexFrame& f = shading.frames[vertex];
-        const glm::vec3 vectors[4] = {glm::vec3(f.tangent), bitangent(f), f.normal, f.position};
-        for (const glm::vec3& v : vectors) {
-            *out++ = v.x;
-            *out++ = v.y;
-            *out++ = v.z;
-        }
-    }
-    const std::size_t count = shading.varying_list.size();
-    std::copy_n(shading.varyings.data() + vertex * count, count, out);
-}
-
 }  // namespace burnish

@@ -95,7 +95,7 @@ struct TileCost {
 
 /// What a frame did. Counts do not depend on ISA or thread count; times do.
 struct FrameStats {
-    std::uint64_t triangles = 0;             ///< submitted
+    std::uint64_t triangles = 0;             ///< submitted; of draws that are not left out
     std::uint64_t nonfinite_triangles = 0;   ///< dropped for a NaN or infinite clip position
     std::uint64_t degenerate_triangles = 0;  ///< zero area after snapping
     std::uint64_t clipped_triangles = 0;     ///< cut by the near, far or guard band planes
@@ -124,19 +124,24 @@ class Renderer {
     [[nodiscard]] int threads() const noexcept;
 
     /// Renders `scene` into all of `target`, whose size (not the scene's) sets the resolution.
+    /// A frame of depths (PixelFormat::depth32f) gets the depth buffer as the draws leave it, the
+    /// window depth 0 .. 1 of the last fragment that wrote one. Draws that write no depth are left
+    /// out; only fragments are shaded of which shading decides whether they live or how deep they
+    /// lie.
     /// With Machine::double_precision: by the formulas of the models, in double precision; opaque
     /// meshes with a model only. Frames of floats are then not clamped to 1.
     /// Throws Error{bad_program} or Error{bad_option} for a material, machine or camera that cannot
-    /// be drawn, Error{limit} if memory runs out; the contents of `target` are then unspecified.
+    /// be drawn, Error{bad_option} for a frame of depths with Machine::double_precision,
+    /// Error{limit} if memory runs out; the contents of `target` are then unspecified.
     FrameStats render(const Scene& scene, Framebuffer& target);
 
     /// The same picture with a register in place of its colours; the background stays.
     /// Throws Error{bad_option}, too, for a register that the machine does not have; with
-    /// Machine::double_precision that is every one.
+    /// Machine::double_precision that is every one. So it does for a frame of depths.
     FrameStats render(const Scene& scene, Framebuffer& target, const ShownRegister& shown);
 
     /// The same fragments with what is known of their geometry in place of colours. Throws
-    /// Error{bad_option}, too, with Machine::double_precision.
+    /// Error{bad_option}, too, with Machine::double_precision and for a frame of depths.
     FrameStats render(const Scene& scene, Framebuffer& target, Aov shown);
 
   private:
