@@ -118,29 +118,26 @@ struct Need {
     double shorts, floats, pairs, near, far, frame;
 };
 constexpr Need kNeeds[] = {
-    // A 4 x 4 matrix (28), a division and two products for the window (5), snapping and bounds
-    // (12);
-    // 12 bytes in, 32 out.
+    // A 4 x 4 matrix (28), a division and two products for the window (5), snapping and
+    // bounds (12); 12 bytes in, 32 out.
     {"transform", "vertices", 0, 45, 0, 44, 44, 0},
-    // Three edges (15), the area (3), slopes of the depth (14), box and tests (20). Three indices
-    // and
-    // three vertices of 16 bytes in, of which two were in the cache.
+    // Three edges (15), the area (3), slopes of the depth (14), box and tests (20). Three
+    // indices and three vertices of 16 bytes in, of which two were in the cache.
     {"setup", "triangles", 0, 52, 0, 60, 28, 0},
     // An entry of 8 bytes, written and moved to its tile's list, of a triangle of 64 bytes.
     {"bin", "triangles", 0, 4, 0, 24, 64, 0},
     // Three edges (12) and the depth (4) at the tile's origin, 64 bytes in.
     {"coverage", "tile_triangles", 0, 16, 0, 64, 64, 0},
-    // Three edges and their signs (6), depth, its clamp and test and two choices (9); depth and
-    // number
-    // of the triangle are kept, the pixel is listed.
+    // Three edges and their signs (6), depth, its clamp and test and two choices (9); depth
+    // and number of the triangle are kept, the pixel is listed.
     {"coverage", "fragments", 0, 15, 0, 10, 0, 0},
     // The number of the pixel, moved.
     {"packets", "fragments", 0, 1, 0, 4, 0, 0},
     // The plane (4), times w (1), and w itself, once for some six values (1).
     {"interpolate", "values", 0, 6, 0, 4, 0, 0},
     // Three lerps of four channels, each a product, a sum and a difference (36). Address and
-    // weights in
-    // (8), texels in two pairs (16), channels out (8); from afar 4 bytes, at a texel a pixel.
+    // weights in (8), texels in two pairs (16), channels out (8); from afar 4 bytes, at a texel
+    // a pixel.
     {"texture", "samples", 36, 0, 2, 32, 4, 0},
     // Three channels of two products, a sum and two clamps; two operands in, one out.
     {"combine", "portions", 15, 0, 0, 18, 0, 0},
