@@ -404,8 +404,8 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
 /// The chunk from which on a tile has to be drawn: a triangle of its covers all that was before.
 std::size_t Renderer::State::first_chunk(std::int32_t x, std::int32_t y) const {
     for (std::size_t i = chunk_count; i-- > 1;) {
-        for (const std::uint32_t k : chunks[i]->tile(x, y)) {
-            const SetupTriangle& triangle = chunks[i]->triangles()[k];
+        for (const TileEntry& entry : chunks[i]->tile(x, y)) {
+            const SetupTriangle& triangle = chunks[i]->triangles()[entry.triangle];
             if (!overwrites[triangle.draw]) break;
             if (covers_tile(triangle, x, y, size)) return i;
         }
