@@ -7,19 +7,24 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bench/count_instructions.hpp"
 #include "bench/run_benchmarks.hpp"
 #include "core/cpu.hpp"
 #include "tests/kernel_packet.hpp"
 
 /// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
 /// compared with the reference before anything is timed. Items are fragments, vertices for
-/// `transform` and `light_vertices`, triangles for `setup` and `rasterize_tiny`, covered pixels for
-/// `rasterize`; `cycles` are those of the
-/// time-stamp counter per item, which runs at the CPU's nominal clock.
+/// `transform` and `light_vertices`, triangles for `setup`, `rasterize_tiny` and
+/// `attribute_planes`, covered pixels for `rasterize`; `cycles` are those of the time-stamp counter
+/// per item, which runs at the CPU's nominal clock.
 namespace burnish {
 namespace {
+
+/// --instructions: every kernel runs once, and its instructions are counted (x86-64).
+bool count_only = false;
 
 template <class Ctx>
 using PacketStage = void (*KernelTable::*)(Packet&, const Ctx&) noexcept;
@@ -32,11 +37,18 @@ void add(const std::string& name, std::int64_t items,
         const auto body = [=](benchmark::State& state) {
             const std::string text = difference(*table);
             if (!text.empty()) return state.SkipWithError(("not the reference: " + text).c_str());
+            if (count_only) {
+                run(counted_kernels(*table), state);
+                state.counters["instructions"] = static_cast<double>(counted_instructions());
+                return;
+            }
             const std::uint64_t start = cycles_so_far();
             run(*table, state);
             count_items(state, items, cycles_so_far() - start);
         };
-        benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
+        auto* registered =
+            benchmark::RegisterBenchmark(("stage/" + name + "/" + table->isa).c_str(), body);
+        if (count_only) registered->Iterations(1);
     }
 }
 
@@ -242,6 +254,10 @@ struct Tile {
         table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
                          id.data(), block_far.data(), drawn.data()});
     }
+    void draw_depths(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
+        table.rasterize({triangles.data(), static_cast<int>(triangles.size()), depth.data(),
+                         nullptr, block_far.data(), nullptr});
+    }
 };
 
 /// Adds the edge a * x + b * y >= limit (with `open`: > limit), x and y in pixels.
@@ -267,7 +283,7 @@ std::vector<TileTriangle> squares(int side) {
             t.z = 0.5F;
             t.zx = t.zy = 0.001F;
             t.z_high = 1.0F;
-            t.pass_less = t.pass_equal = t.depth_write = 1;
+            t.pass_less = t.depth_write = 1;
             TileTriangle upper = t;
             upper.id = static_cast<std::uint32_t>(triangles.size());
             add_edge(upper, side, 0, side * x, false);
@@ -302,6 +318,27 @@ void add_rasterize() {
                 Tile tile;
                 for (auto _ : state) {
                     tile.draw(table, triangles);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+void add_rasterize_depths() {
+    for (const int side : {4, 16, 64}) {
+        const std::vector<TileTriangle> triangles = squares(side);
+        add(
+            "rasterize_depths/squares_" + std::to_string(side), kTilePixels,
+            [=](const KernelTable& table) -> std::string {
+                Tile got, want;
+                got.draw_depths(table, triangles);
+                want.draw(table_reference(), triangles);
+                return got.depth == want.depth ? "" : "depths";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                Tile tile;
+                for (auto _ : state) {
+                    tile.draw_depths(table, triangles);
                     benchmark::ClobberMemory();
                 }
             });
@@ -396,23 +433,84 @@ void add_collect() {
 
 void add_attributes() {
     constexpr int kAttributes = 14;  // tangent frame, position, texture coordinates
-    static std::vector<AttributePlane> planes;
-    static std::array<std::vector<Run>, 3> runs;
+    static Equations equations(kAttributes);
+    static std::array<std::vector<Run>, 4> runs;
     Random random(2);
-    for (int k = 0; k <= kAttributes; ++k)
-        planes.push_back(
-            {random.real(0.5F, 1.0F), random.real(0.0F, 0.01F), random.real(0.0F, 0.01F)});
+    for (int e = 0; e <= kAttributes; ++e)
+        for (int r = 0; r < kPacketSize; ++r)
+            equations.set(
+                e, r,
+                {random.real(0.5F, 1.0F), random.real(0.0F, 0.01F), random.real(0.0F, 0.01F)});
     Written written;
     for (int k = 0; k < kAttributes; ++k) written.attributes.push_back(k);
-    const std::array lengths{4, 16, 64};
+    const std::array lengths{1, 4, 16, 64};
     for (std::size_t v = 0; v < lengths.size(); ++v) {
         const int length = lengths[v];
         for (int first = 0; first < kPacketSize; first += length)
-            runs[v].push_back({planes.data(), first, length, 100, 200});
-        add_packet_stage(
-            "attributes/runs_of_" + std::to_string(length), &KernelTable::attributes,
-            PacketMemory(),
-            AttributesCtx{runs[v].data(), static_cast<int>(runs[v].size()), kAttributes}, written);
+            runs[v].push_back({first, length, 100, 200});
+        add_packet_stage("attributes/runs_of_" + std::to_string(length), &KernelTable::attributes,
+                         PacketMemory(),
+                         AttributesCtx{runs[v].data(), static_cast<int>(runs[v].size()),
+                                       kAttributes, equations.data()},
+                         written);
+    }
+}
+
+/// The triangles between the vertices of a grid, as tiny ones of a mesh are.
+struct GridTriangles {
+    static constexpr int kSide = 12, kAttributes = 6;  // uv, a half vector and a cosine
+    static constexpr int kStride = 8;
+    std::vector<HomogeneousVertex> homogeneous;
+    std::vector<float> rows = std::vector<float>(kSide * kSide * kStride + 3);
+    std::vector<PlaneTriangle> triangles;
+
+    GridTriangles() {
+        Random random(21);
+        for (float& x : rows) x = random.unit();
+        for (int v = 0; v < kSide * kSide; ++v) {
+            const float w = random.real(3.0F, 4.0F);
+            homogeneous.push_back({100.0F * w, 100.0F * w, 0.5F * w, w});
+        }
+        for (int y = 0; y + 1 < kSide; ++y) {
+            for (int x = 0; x + 1 < kSide; ++x) {
+                const auto v = static_cast<std::uint32_t>(y * kSide + x);
+                const int left = 1000 * x, top = 900 * y;
+                triangles.push_back({{left, left + 1000, left},
+                                     {top, top, top + 900},
+                                     {v, v + 1, v + kSide},
+                                     4 * x,
+                                     3 * y,
+                                     0});
+            }
+        }
+    }
+    void make(const KernelTable& table, int count, Equations& out) const {
+        table.attribute_planes({triangles.data(), count, homogeneous.data(), rows.data(), kStride,
+                                kAttributes, out.rows.data()});
+    }
+};
+
+void add_attribute_planes() {
+    static const GridTriangles grid;
+    static Equations got(GridTriangles::kAttributes), want(GridTriangles::kAttributes);
+    for (const int count : {4, 16, 96}) {
+        add(
+            "attribute_planes/triangles_" + std::to_string(count), count,
+            [=](const KernelTable& table) -> std::string {
+                grid.make(table, count, got);
+                grid.make(table_reference(), count, want);
+                for (std::size_t i = 0; i < got.rows.size(); ++i)
+                    if (i % kAttributeStride < static_cast<std::size_t>(count) &&
+                        !same_bits(got.rows[i], want.rows[i]))
+                        return "equations";
+                return "";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                for (auto _ : state) {
+                    grid.make(table, count, got);
+                    benchmark::ClobberMemory();
+                }
+            });
     }
 }
 
@@ -503,15 +601,21 @@ void add_levels() {
     }
     add_packet_stage("cube_face", &KernelTable::cube_face, packet, CubeFaceCtx{0, 1, 2, 7, 8, 5},
                      {.planes = {5}, .attributes = {7, 8}});
-    static const std::array<AttributePlane, 4> planes{
-        {{1.0F, 0.001F, 0.002F}, {0.3F, 0.8F, 0.1F}, {0.2F, 0.1F, 0.9F}, {1.0F, 0.0F, 0.0F}}};
+    static Equations equations(3);
     static std::vector<Run> runs;
-    for (int first = 0; first < kPacketSize; first += 16)
-        runs.push_back({planes.data(), first, 16, 100, 200});
+    for (int r = 0; r < kPacketSize / 16; ++r) {
+        equations.set(0, r, {1.0F, 0.001F, 0.002F});
+        equations.set(1, r, {0.3F, 0.8F, 0.1F});
+        equations.set(2, r, {0.2F, 0.1F, 0.9F});
+        equations.set(3, r, {1.0F, 0.0F, 0.0F});
+        runs.push_back({16 * r, 16, 100, 200});
+    }
     const FootprintCtx footprint{0, 1, -1, -1, 0, {256.0F, 256.0F, 1.0F}, 7};
-    add_packet_stage("plane_footprint/runs_of_16", &KernelTable::plane_footprint, packet,
-                     PlaneFootprintCtx{footprint, {runs.data(), static_cast<int>(runs.size()), 3}},
-                     {.attributes = {7}});
+    add_packet_stage(
+        "plane_footprint/runs_of_16", &KernelTable::plane_footprint, packet,
+        PlaneFootprintCtx{footprint,
+                          {runs.data(), static_cast<int>(runs.size()), 3, equations.data()}},
+        {.attributes = {7}});
     add_packet_stage("quad_footprint", &KernelTable::quad_footprint, packet,
                      QuadFootprintCtx{footprint}, {.attributes = {7}});
     add_packet_stage("level_of_detail", &KernelTable::level_of_detail, packet,
@@ -821,12 +925,17 @@ void add_models() {
 
 int main(int argc, char** argv) {
     using namespace burnish;
+    char** const end = std::remove(argv, argv + argc, std::string_view("--instructions"));
+    count_only = can_count_instructions() && end != argv + argc;
+    argc = static_cast<int>(end - argv);
     add_transform();
     add_setup();
     add_light_vertices();
     add_rasterize();
+    add_rasterize_depths();
     add_rasterize_tiny();
     add_collect();
+    add_attribute_planes();
     add_attributes();
     add_lighting_and_encode();
     add_texels();

@@ -135,18 +135,19 @@ struct Fragments {
         plan_shading(shading, {&material, 1}, machine, false);
         // 1/w, then coordinates that move a texel or so from pixel to pixel, each another way.
         Random random(5);
-        equations.push_back({1.0F, 0.0005F, 0.0003F});
+        equations.set(0, 0, {1.0F, 0.0005F, 0.0003F});
         for (int k = 0; k < shading.interpolated(); ++k)
-            equations.push_back({random.real(0.2F, 0.8F), random.real(-0.009F, 0.009F),
-                                 random.real(-0.009F, 0.009F)});
-        run = {equations.data(), 0, kPacketSize, 100, 200};
+            equations.set(k + 1, 0,
+                          {random.real(0.2F, 0.8F), random.real(-0.009F, 0.009F),
+                           random.real(-0.009F, 0.009F)});
+        run = {0, kPacketSize, 100, 200};
     }
     void shade(const KernelTable& table, AlignedVector<std::int16_t>& planes,
                AlignedVector<float>& floats) {
         Packet packet = memory.view();
         packet.attributes = floats.data();
         packet.planes = planes.data();
-        shade_packet(shading, table, {&run, 1, shading.interpolated()}, packet);
+        shade_packet(shading, table, {&run, 1, shading.interpolated(), equations.data()}, packet);
     }
     AlignedVector<std::int16_t> make_planes() {
         AlignedVector<std::int16_t> planes(static_cast<std::size_t>(shading.program.plane_count) *
@@ -167,7 +168,7 @@ struct Fragments {
 
     Shading shading;
     std::vector<UnitProblem> problems;
-    std::vector<AttributePlane> equations;
+    Equations equations = Equations(kMaxInterpolated);
     Run run{};
     PacketMemory memory;
     AlignedVector<float> attributes =

@@ -1,22 +1,19 @@
-/// Perspective-correct attributes, run by run. A run's last vector may write past its end; the next
-/// run then overwrites that.
+/// Perspective-correct attributes.
 void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
     const int attribute_count = ctx.attribute_count;
-    for (int r = 0; r < ctx.run_count; ++r) {
-        const Run run = ctx.runs[r];
-        const I32 offset_x(run.offset_x), offset_y(run.offset_y);
-        for (int i = run.first; i < run.first + run.count; i += kLanes32) {
-            const PixelPositions pixel = positions(packet.pixels + i, offset_x, offset_y);
-            const auto at_pixel = [&](const AttributePlane& plane) {
-                return (F32(plane.origin) + F32(plane.dx) * pixel.x) + F32(plane.dy) * pixel.y;
-            };
-            const F32 w = divide(F32(1.0F), at_pixel(run.planes[0]));
-            float* out = packet.attributes + i;
-            for (int k = 0; k < attribute_count; ++k) {
-                store(out + k * kAttributeStride, at_pixel(run.planes[k + 1]) * w);
-            }
+    if (attribute_count == 0) return;
+    const FragmentRuns runs(packet, ctx);
+    runs.for_each_vector([&](int first, const PixelPositions& pixel, const auto& row) {
+        const auto at_pixel = [&](int equation) {
+            const int k = 3 * equation;
+            return (row(k) + row(k + 1) * pixel.x) + row(k + 2) * pixel.y;
+        };
+        const F32 w = divide(F32(1.0F), at_pixel(0));
+        float* const out = packet.attributes + first;
+        for (int k = 0; k < attribute_count; ++k) {
+            store(out + k * kAttributeStride, at_pixel(k + 1) * w);
         }
-    }
+    });
 }
 
 struct Vector3 {

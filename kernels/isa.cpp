@@ -10,7 +10,9 @@ namespace burnish::BURNISH_ISA {
 namespace {
 
 #include "kernels/groups.inl"
+#include "kernels/runs.inl"
 
+#include "kernels/attribute_planes.inl"
 #include "kernels/combine.inl"
 #include "kernels/fetch.inl"
 #include "kernels/final.inl"  // after combine.inl, whose products it uses

@@ -77,23 +77,18 @@ F32 footprint(const FootprintCtx& ctx, At at) {
     return max(square(&Changing::dx), square(&Changing::dy));
 }
 
-/// Run by run, as attributes() does it.
 void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
     const FootprintCtx how = ctx.footprint;
     float* const out = packet.attributes + how.out * kAttributeStride;
-    for (int k = 0; k < ctx.runs.run_count; ++k) {
-        const Run run = ctx.runs.runs[k];
-        const I32 offset_x(run.offset_x), offset_y(run.offset_y);
-        for (int i = run.first; i < run.first + run.count; i += kLanes32) {
-            const PixelPositions pixel = positions(packet.pixels + i, offset_x, offset_y);
-            const auto at = [&](int attribute) {
-                const AttributePlane& p = run.planes[attribute + 1];
-                const F32 dx(p.dx), dy(p.dy);
-                return Changing{(F32(p.origin) + dx * pixel.x) + dy * pixel.y, dx, dy};
-            };
-            store(out + i, footprint(how, at));
-        }
-    }
+    const FragmentRuns runs(packet, ctx.runs);
+    runs.for_each_vector([&](int first, const PixelPositions& pixel, const auto& row) {
+        const auto at = [&](int attribute) {
+            const int k = 3 * (attribute + 1);
+            const F32 dx = row(k + 1), dy = row(k + 2);
+            return Changing{(row(k) + dx * pixel.x) + dy * pixel.y, dx, dy};
+        };
+        store(out + first, footprint(how, at));
+    });
 }
 
 void quad_footprint(Packet& packet, const QuadFootprintCtx& ctx) noexcept {

@@ -9,87 +9,155 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
 }
 
 /// Frames of kLanes32 vertices, component by component; the lanes past `used` repeat the last one.
-struct FrameLanes {
+class FrameLanes {
+  public:
     FrameLanes(const float* frames, int used) {
-        for (int k = 0; k < kLanes32; ++k) {
-            const float* from = frames + (k < used ? k : used - 1) * LightVerticesCtx::kFrameFloats;
-            for (int c = 0; c < kComponents; ++c) lanes[c][k] = from[c];
+        const auto columns = [&](int first) {
+            return load_columns([&](int k) {
+                return frames + (k < used ? k : used - 1) * LightVerticesCtx::kFrameFloats + first;
+            });
+        };
+        for (int part = 0; part < 3; ++part) m_columns[part] = columns(4 * part);
+    }
+    F32 operator()(int c) const { return m_columns[c / 4].floats(c % 4); }
+    Vector3 vector(int c) const { return {(*this)(c), (*this)(c + 1), (*this)(c + 2)}; }
+
+  private:
+    Columns m_columns[3];
+};
+
+/// Which of the VertexValues are asked for.
+struct WantedValues {
+    explicit WantedValues(const LightVerticesCtx& ctx) {
+        std::uint64_t all = 0;
+        for (int k = 0; k < ctx.stride; ++k)
+            if (ctx.values[k] != VertexValue::none) all |= std::uint64_t{1} << ctx.values[k];
+        const auto any = [&](int first, int count) {
+            return (all >> first & ((std::uint64_t{1} << count) - 1)) != 0;
+        };
+        half = any(VertexValue::half, 3) || any(VertexValue::half_sum, 3) ||
+               any(VertexValue::h_dot_l, 1);
+        light = any(VertexValue::light, 3);
+        view = any(VertexValue::view, 3);
+        lighting = any(0, VertexValue::normal);
+        normal = any(VertexValue::normal, 3);
+        own = any(VertexValue::uv, VertexValue::count - VertexValue::uv);
+    }
+    bool half, light, view;
+    bool lighting;  ///< these or others that the light changes
+    bool normal;
+    bool own;  ///< what the vertex brings
+};
+
+/// Values of kLanes32 vertices by their numbers.
+struct ValueLanes {
+    void write(int value, F32 x) { store(lanes[value], x); }
+    void write(int first, const Vector3& x) {
+        write(first, x.x);
+        write(first + 1, x.y);
+        write(first + 2, x.z);
+    }
+    alignas(64) float lanes[VertexValue::count][kLanes32];
+};
+
+void light_lanes(const LightVerticesCtx& ctx, const WantedValues& wanted, const FrameLanes& frame,
+                 ValueLanes& values) {
+    const F32 half(0.5F), zero(0.0F), sign = frame(9);
+    const Vector3 position = frame.vector(0);
+    Vector3 n = frame.vector(3), t = frame.vector(6), b = cross(n, t);
+    b = {b.x * sign, b.y * sign, b.z * sign};
+    if (ctx.orthonormal != 0) {
+        n = unit_or_zero(n);
+        const F32 along = dot(n, t);
+        t = unit_or_zero({t.x - n.x * along, t.y - n.y * along, t.z - n.z * along});
+        const Vector3 c = cross(n, t);
+        const F32 side = ::xsimd::select(dot(c, b) < zero, F32(-1.0F), F32(1.0F));
+        b = {c.x * side, c.y * side, c.z * side};
+    }
+    const auto towards = [&](const float(&to)[3], float at_infinity) {
+        const F32 w(at_infinity);
+        return unit_or_zero({F32(to[0]) - position.x * w, F32(to[1]) - position.y * w,
+                             F32(to[2]) - position.z * w});
+    };
+    const auto write_coded = [&](int first, const Vector3& x) {
+        values.write(first,
+                     {dot(t, x) * half + half, dot(b, x) * half + half, dot(n, x) * half + half});
+    };
+    const Vector3 l = towards(ctx.light, ctx.light_w);
+    if (wanted.half || wanted.view) {
+        const Vector3 v = towards(ctx.eye, ctx.eye_w);
+        const Vector3 sum{l.x + v.x, l.y + v.y, l.z + v.z};
+        const Vector3 middle{sum.x * half, sum.y * half, sum.z * half};
+        const Vector3 h = ctx.raw_half != 0 ? middle : unit_or_zero(sum);
+        write_coded(VertexValue::half, h);
+        if (wanted.view) write_coded(VertexValue::view, v);
+        values.write(VertexValue::half_sum, {dot(t, middle), dot(b, middle), dot(n, middle)});
+        values.write(VertexValue::h_dot_l, max(dot(h, l), zero));
+    }
+    if (wanted.light) write_coded(VertexValue::light, l);
+    const F32 n_dot_l = max(dot(n, l), zero);
+    values.write(VertexValue::n_dot_l, n_dot_l);
+    for (int c = 0; c < 3; ++c)
+        values.write(VertexValue::lit + c, n_dot_l * F32(ctx.tint[c]) + F32(ctx.base[c]));
+}
+
+void own_lanes(const FrameLanes& frame, ValueLanes& values) {
+    const Vector3 normal = frame.vector(3), tangent = frame.vector(6);
+    const Vector3 side = cross(normal, tangent);
+    const F32 sign = frame(9);
+    values.write(VertexValue::uv, frame(10));
+    values.write(VertexValue::uv + 1, F32(1.0F) - frame(11));
+    values.write(VertexValue::frame, tangent);
+    values.write(VertexValue::frame + 3, {side.x * sign, side.y * sign, side.z * sign});
+    values.write(VertexValue::frame + 6, normal);
+    values.write(VertexValue::frame + 9, frame.vector(0));
+}
+
+/// Where a row has a whole group of four values, one store writes it.
+void write_rows(const LightVerticesCtx& ctx, const ValueLanes& values, int first, int used) {
+    const auto row = [&](int k) {
+        return ctx.out + static_cast<std::ptrdiff_t>(first + k) * ctx.stride;
+    };
+    const auto is_whole = [&](int group) {
+        if (group + 4 > ctx.stride) return false;
+        for (int k = group; k < group + 4; ++k)
+            if (ctx.values[k] == VertexValue::none) return false;
+        return true;
+    };
+    for (int group = 0; group < ctx.stride; group += 4) {
+        if (used == kLanes32 && is_whole(group)) {
+            Columns columns;
+            for (int k = 0; k < 4; ++k) {
+                const float* const from = values.lanes[ctx.values[group + k]];
+                columns.column[k] = load(reinterpret_cast<const std::int16_t*>(from));
+            }
+            store_columns(columns, [&](int k) { return row(k) + group; });
+            continue;
+        }
+        const int end = group + 4 < ctx.stride ? group + 4 : ctx.stride;
+        for (int k = group; k < end; ++k) {
+            if (ctx.values[k] == VertexValue::none) continue;
+            for (int j = 0; j < used; ++j) row(j)[k] = values.lanes[ctx.values[k]][j];
         }
     }
-    F32 operator()(int c) const { return load(lanes[c]); }
-    Vector3 vector(int c) const { return {load(lanes[c]), load(lanes[c + 1]), load(lanes[c + 2])}; }
-
-    static constexpr int kComponents = 10;  // no uv
-    alignas(64) float lanes[kComponents][kLanes32];
-};
+}
 
 /// Formulas: LightVerticesCtx.
 void light_vertices(const LightVerticesCtx& ctx) noexcept {
-    bool wants_half = false, wants_light = false, wants_view = false;
-    for (int k = 0; k < ctx.stride; ++k) {
-        const int value = ctx.values[k];
-        wants_half |= (value >= VertexValue::half && value < VertexValue::half + 3) ||
-                      (value >= VertexValue::half_sum && value < VertexValue::half_sum + 3) ||
-                      value == VertexValue::h_dot_l;
-        wants_light |= value >= VertexValue::light && value < VertexValue::light + 3;
-        wants_view |= value >= VertexValue::view && value < VertexValue::view + 3;
-    }
-    const Vector3 light{F32(ctx.light[0]), F32(ctx.light[1]), F32(ctx.light[2])};
-    const Vector3 eye{F32(ctx.eye[0]), F32(ctx.eye[1]), F32(ctx.eye[2])};
-    const F32 half(0.5F), zero(0.0F);
-    alignas(64) float values[VertexValue::count][kLanes32];
+    const WantedValues wanted(ctx);
+    ValueLanes values;
     for (int i = 0; i < ctx.count; i += kLanes32) {
         const int used = ctx.count - i < kLanes32 ? ctx.count - i : kLanes32;
-        const FrameLanes frame(ctx.frames + i * LightVerticesCtx::kFrameFloats, used);
-        const Vector3 position = frame.vector(0), normal = frame.vector(3);
-        Vector3 n = normal, t = frame.vector(6), b = cross(n, t);
-        const F32 sign = frame(9);
-        b = {b.x * sign, b.y * sign, b.z * sign};
-        if (ctx.orthonormal != 0) {
-            n = unit_or_zero(n);
-            const F32 along = dot(n, t);
-            t = unit_or_zero({t.x - n.x * along, t.y - n.y * along, t.z - n.z * along});
-            const Vector3 c = cross(n, t);
-            const F32 side = ::xsimd::select(dot(c, b) < zero, F32(-1.0F), F32(1.0F));
-            b = {c.x * side, c.y * side, c.z * side};
+        const FrameLanes frame(
+            ctx.frames + static_cast<std::ptrdiff_t>(i) * LightVerticesCtx::kFrameFloats, used);
+        if (wanted.lighting) light_lanes(ctx, wanted, frame, values);
+        if (wanted.normal) {
+            const F32 half(0.5F);
+            const Vector3 n = frame.vector(3);
+            values.write(VertexValue::normal,
+                         {n.x * half + half, n.y * half + half, n.z * half + half});
         }
-        const auto towards = [&](const Vector3& to, float at_infinity) {
-            const F32 w(at_infinity);
-            return unit_or_zero(
-                {to.x - position.x * w, to.y - position.y * w, to.z - position.z * w});
-        };
-        const auto write = [&](int value, F32 x) { store(values[value], x); };
-        const auto write_coded = [&](int first, const Vector3& x) {
-            write(first, dot(t, x) * half + half);
-            write(first + 1, dot(b, x) * half + half);
-            write(first + 2, dot(n, x) * half + half);
-        };
-        const Vector3 l = towards(light, ctx.light_w);
-        if (wants_half || wants_view) {
-            const Vector3 v = towards(eye, ctx.eye_w);
-            const Vector3 sum{l.x + v.x, l.y + v.y, l.z + v.z};
-            const Vector3 middle{sum.x * half, sum.y * half, sum.z * half};
-            const Vector3 h = ctx.raw_half != 0 ? middle : unit_or_zero(sum);
-            write_coded(VertexValue::half, h);
-            if (wants_view) write_coded(VertexValue::view, v);
-            write(VertexValue::half_sum, dot(t, middle));
-            write(VertexValue::half_sum + 1, dot(b, middle));
-            write(VertexValue::half_sum + 2, dot(n, middle));
-            write(VertexValue::h_dot_l, max(dot(h, l), zero));
-        }
-        if (wants_light) write_coded(VertexValue::light, l);
-        const F32 n_dot_l = max(dot(n, l), zero);
-        write(VertexValue::n_dot_l, n_dot_l);
-        for (int c = 0; c < 3; ++c)
-            write(VertexValue::lit + c, n_dot_l * F32(ctx.tint[c]) + F32(ctx.base[c]));
-        write(VertexValue::normal, normal.x * half + half);
-        write(VertexValue::normal + 1, normal.y * half + half);
-        write(VertexValue::normal + 2, normal.z * half + half);
-        for (int k = 0; k < ctx.stride; ++k) {
-            if (ctx.values[k] == VertexValue::none) continue;
-            const float* const from = values[ctx.values[k]];
-            float* const to = ctx.out + static_cast<std::ptrdiff_t>(i) * ctx.stride + k;
-            for (int j = 0; j < used; ++j) to[j * ctx.stride] = from[j];
-        }
+        if (wanted.own) own_lanes(frame, values);
+        write_rows(ctx, values, i, used);
     }
 }

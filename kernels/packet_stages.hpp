@@ -10,24 +10,22 @@
 /// Numbers of the two models: docs/numbers.md.
 namespace burnish {
 
-/// Value at pixel (px, py) of the window: (origin + dx * x) + dy * y, x = float(px - reference x).
-struct AttributePlane {
-    float origin, dx, dy;
-};
-
 /// Consecutive fragments of one triangle.
 struct Run {
-    const AttributePlane* planes;     ///< 1/w, then attribute_count times attribute/w
     int first, count;                 ///< fragments of the packet
     std::int32_t offset_x, offset_y;  ///< tile pixel (0, 0) minus the reference pixel
 };
 
-/// Perspective-correct interpolation: attribute plane k = (planes[k + 1] at the pixel) * w, with
-/// w = 1 / (planes[0] at the pixel). x of a fragment = float(tile x + offset_x).
+/// Perspective-correct interpolation: attribute plane k = (equation k + 1 at the pixel) * w, with
+/// w = 1 / (equation 0 at the pixel). An equation at a fragment of run r is
+/// (origin + dx * x) + dy * y, x = float(tile x + offset_x), y likewise; origin, dx and dy of
+/// equation e are equations[(3 e + c) * kAttributeStride + r] with c = 0, 1, 2. Nothing is done
+/// where attribute_count is 0.
 struct AttributesCtx {
     const Run* runs;  ///< cover fragments 0 .. count - 1 in order
-    int run_count;
+    int run_count;    ///< 1 .. kPacketSize
     int attribute_count;
+    const float* equations;  ///< 3 * (attribute_count + 1) rows, readable 16 past the last run
 };
 
 /// Light, view and half vectors in the interpolated tangent frame, per fragment.
@@ -158,9 +156,9 @@ struct FootprintCtx {
     int out;
 };
 
-/// From the planes of interpolated attributes: S is planes[s + 1], D planes[q + 1], or planes[0]
-/// where there is no q. Values at the pixel as in AttributesCtx, derivatives the planes' dx and dy;
-/// for a cube map the signs of a and b are applied to value and derivatives alike.
+/// From the equations of interpolated attributes: S is number s + 1, D number q + 1, or number 0
+/// where there is no q. Values at the pixel as in AttributesCtx, derivatives the equations' dx and
+/// dy; for a cube map the signs of a and b are applied to value and derivatives alike.
 struct PlaneFootprintCtx {
     FootprintCtx footprint;
     AttributesCtx runs;  ///< attribute_count is not looked at

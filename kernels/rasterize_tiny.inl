@@ -80,7 +80,7 @@ inline int append_fragments(const TileEntry& entry, const SetupTriangle& t,
 
 /// Tests and writes fragments one by one. Whether one passes cannot be foretold, so what fails is
 /// written, too, where nobody looks.
-template <bool Usual>
+template <bool Usual, bool HasIds>
 inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeTinyCtx& ctx) {
     constexpr std::uint32_t kNowhere = TinyFragments::kQuarters * TinyFragments::kEnough;
     const DepthRule rule = ctx.rule;
@@ -101,8 +101,10 @@ inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeT
                              : rule.pass_equal != 0;
         }
         const std::uint32_t to = pass ? pixel : kTilePixels;
-        fragments.passed[pass ? quarter : kNowhere] = 1;
-        id[to] = first_id + quarter / TinyFragments::kQuarters;
+        if constexpr (HasIds) {
+            fragments.passed[pass ? quarter : kNowhere] = 1;
+            id[to] = first_id + quarter / TinyFragments::kQuarters;
+        }
         if (Usual || rule.write != 0) depth[to] = z;
         if constexpr (!Usual) {
             float& far = ctx.block_far[pixel / kBlockPixels];
@@ -113,15 +115,14 @@ inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeT
 
 /// Blocks of the 2 x 2 from the mask's corner on in which a fragment passed.
 inline std::uint64_t drawn_blocks(const TileEntry& entry, const std::uint8_t* passed) {
-    const std::uint64_t blocks = passed[0] | passed[1] << 1 | passed[2] << 8 | passed[3] << 9;
+    const auto blocks =
+        static_cast<std::uint64_t>(passed[0] | passed[1] << 1 | passed[2] << 8 | passed[3] << 9);
     return blocks << (entry.y / kBlockSize * kBlockSize + entry.x / kBlockSize);
 }
 
-void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
+template <bool Usual, bool HasIds>
+void rasterize_tiny(const RasterizeTinyCtx& ctx) {
     constexpr int kQuarters = TinyFragments::kQuarters;
-    const DepthRule& rule = ctx.rule;
-    const bool usual =
-        rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;
     TinyFragments fragments;
     for (int next = 0; next < ctx.count;) {
         const int first = fragments.first_triangle = next;
@@ -135,10 +136,20 @@ void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
             count =
                 append_fragments(entry, ctx.triangles[entry.triangle], ctx, next, count, fragments);
         }
-        usual ? draw_fragments<true>(fragments, count, ctx)
-              : draw_fragments<false>(fragments, count, ctx);
-        for (int k = first; k < next; ++k) {
+        draw_fragments<Usual, HasIds>(fragments, count, ctx);
+        for (int k = first; HasIds && k < next; ++k) {
             ctx.drawn[k] = drawn_blocks(ctx.entries[k], fragments.passed + kQuarters * (k - first));
         }
+    }
+}
+
+void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
+    const DepthRule& rule = ctx.rule;
+    const bool usual =
+        rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;
+    if (ctx.id != nullptr) {
+        usual ? rasterize_tiny<true, true>(ctx) : rasterize_tiny<false, true>(ctx);
+    } else {
+        usual ? rasterize_tiny<true, false>(ctx) : rasterize_tiny<false, false>(ctx);
     }
 }

@@ -223,18 +223,19 @@ bool passes(const Rule& rule, float depth, float old) {
 void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int k = 0; k < ctx.count; ++k) {
         const TileTriangle& t = ctx.triangles[k];
-        ctx.drawn[k] = 0;
+        std::uint64_t drawn = 0;
         for (int y = t.y0; y <= t.y1; ++y) {
             for (int x = t.x0; x <= t.x1; ++x) {
                 if (!covers(t, x, y)) continue;
                 const int pixel = tile_index(x, y);
                 const float depth = depth_at(t, x, y);
                 if (!passes(t, depth, ctx.depth[pixel])) continue;
-                ctx.id[pixel] = t.id;
-                ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
+                if (ctx.id != nullptr) ctx.id[pixel] = t.id;
+                drawn |= std::uint64_t{1} << pixel / kBlockPixels;
                 if (t.depth_write != 0) ctx.depth[pixel] = depth;
             }
         }
+        if (ctx.id != nullptr) ctx.drawn[k] = drawn;
     }
     for (int block = 0; block < kTileBlocks; ++block) {
         const float* depth = ctx.depth + block * kBlockPixels;
@@ -254,15 +255,17 @@ void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
         t.z_high = triangle.z_high;
         t.offset_x = ctx.left - triangle.reference_x;
         t.offset_y = ctx.top - triangle.reference_y;
-        ctx.drawn[k] = 0;
+        if (ctx.id != nullptr) ctx.drawn[k] = 0;
         for (int bit = 0; bit < kTinySize * kTinySize; ++bit) {
             if ((entry.covered >> bit & 1) == 0) continue;
             const int x = entry.x + bit % kTinySize, y = entry.y + bit / kTinySize;
             const int pixel = tile_index(x, y);
             const float depth = depth_at(t, x, y);
             if (!passes(ctx.rule, depth, ctx.depth[pixel])) continue;
-            ctx.id[pixel] = ctx.first_id + static_cast<std::uint32_t>(k);
-            ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
+            if (ctx.id != nullptr) {
+                ctx.id[pixel] = ctx.first_id + static_cast<std::uint32_t>(k);
+                ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
+            }
             if (ctx.rule.write == 0) continue;
             ctx.depth[pixel] = depth;
             float& far = ctx.block_far[pixel / kBlockPixels];
@@ -309,6 +312,53 @@ void collect(const CollectCtx& ctx) noexcept {
 
 // ---- from triangles to registers
 
+struct Homogeneous {
+    double x, y, w;
+};
+
+Homogeneous cross(const Homogeneous& a, const Homogeneous& b) {
+    return {a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w, a.x * b.y - a.y * b.x};
+}
+
+/// Corner i from the centre of the reference pixel.
+Homogeneous plane_corner(const AttributePlanesCtx& ctx, const PlaneTriangle& t, int i) {
+    const HomogeneousVertex& h = ctx.homogeneous[t.vertex[i]];
+    const double w = static_cast<double>(h.w);
+    const double centre_x = t.reference_x + 0.5, centre_y = t.reference_y + 0.5;
+    if (t.clipped != 0) {
+        return {static_cast<double>(h.x) - centre_x * w, static_cast<double>(h.y) - centre_y * w,
+                w};
+    }
+    return {(t.x[i] / 256.0 - centre_x) * w, (t.y[i] / 256.0 - centre_y) * w, w};
+}
+
+void attribute_planes(const AttributePlanesCtx& ctx) noexcept {
+    for (int k = 0; k < ctx.count; ++k) {
+        const PlaneTriangle& t = ctx.triangles[k];
+        const Homogeneous v[3] = {plane_corner(ctx, t, 0), plane_corner(ctx, t, 1),
+                                  plane_corner(ctx, t, 2)};
+        Homogeneous b[3] = {cross(v[1], v[2]), cross(v[2], v[0]), cross(v[0], v[1])};
+        const double scale = 1.0 / (v[0].x * b[0].x + v[0].y * b[0].y + v[0].w * b[0].w);
+        for (Homogeneous& row : b) row = {row.x * scale, row.y * scale, row.w * scale};
+        for (int e = 0; e <= ctx.attribute_count; ++e) {
+            double a[3] = {1.0, 1.0, 1.0};
+            for (int i = 0; i < 3 && e > 0; ++i) {
+                a[i] = static_cast<double>(
+                    ctx.rows[static_cast<std::ptrdiff_t>(t.vertex[i]) * ctx.row_stride + e - 1]);
+            }
+            const auto sum = [&](double Homogeneous::*c) {
+                return static_cast<float>(a[0] * (b[0].*c) + a[1] * (b[1].*c) + a[2] * (b[2].*c));
+            };
+            const bool edge_on = !std::isfinite(scale);
+            float* const out =
+                ctx.equations + static_cast<std::ptrdiff_t>(3 * e) * kAttributeStride + k;
+            out[0] = edge_on ? static_cast<float>(a[0]) : sum(&Homogeneous::w);
+            out[kAttributeStride] = edge_on ? 0.0F : sum(&Homogeneous::x);
+            out[2 * kAttributeStride] = edge_on ? 0.0F : sum(&Homogeneous::y);
+        }
+    }
+}
+
 float* attribute(const Packet& packet, int k) {
     return packet.attributes + static_cast<std::ptrdiff_t>(k) * kAttributeStride;
 }
@@ -317,18 +367,30 @@ std::int16_t* plane(const Packet& packet, int k) {
     return packet.planes + static_cast<std::ptrdiff_t>(k) * kPacketSize;
 }
 
+struct Equation {
+    float origin, dx, dy;
+};
+
+Equation equation(const AttributesCtx& ctx, int e, int run) {
+    const float* const row =
+        ctx.equations + static_cast<std::ptrdiff_t>(3 * e) * kAttributeStride + run;
+    return {row[0], row[kAttributeStride], row[2 * kAttributeStride]};
+}
+
 void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
     for (int r = 0; r < ctx.run_count; ++r) {
         const Run& run = ctx.runs[r];
         for (int i = run.first; i < run.first + run.count; ++i) {
             const auto x = static_cast<float>(tile_x(packet.pixels[i]) + run.offset_x);
             const auto y = static_cast<float>(tile_y(packet.pixels[i]) + run.offset_y);
-            const auto value = [&](const AttributePlane& p) {
+            const auto value = [&](int e) {
+                const Equation p = equation(ctx, e, r);
                 return (p.origin + p.dx * x) + p.dy * y;
             };
-            const float w = 1.0F / value(run.planes[0]);
+            if (ctx.attribute_count == 0) continue;
+            const float w = 1.0F / value(0);
             for (int k = 0; k < ctx.attribute_count; ++k)
-                attribute(packet, k)[i] = value(run.planes[k + 1]) * w;
+                attribute(packet, k)[i] = value(k + 1) * w;
         }
     }
 }
@@ -444,6 +506,16 @@ void light_vertices(const LightVerticesCtx& ctx) noexcept {
         values[VertexValue::normal] = normal.x * 0.5F + 0.5F;
         values[VertexValue::normal + 1] = normal.y * 0.5F + 0.5F;
         values[VertexValue::normal + 2] = normal.z * 0.5F + 0.5F;
+        values[VertexValue::uv] = f[10];
+        values[VertexValue::uv + 1] = 1.0F - f[11];
+        const Vector tangent{f[6], f[7], f[8]}, side = cross(normal, tangent);
+        const Vector frame[4] = {
+            tangent, {side.x * f[9], side.y * f[9], side.z * f[9]}, normal, position};
+        for (int c = 0; c < 4; ++c) {
+            values[VertexValue::frame + 3 * c] = frame[c].x;
+            values[VertexValue::frame + 3 * c + 1] = frame[c].y;
+            values[VertexValue::frame + 3 * c + 2] = frame[c].z;
+        }
         for (int i = 0; i < ctx.stride; ++i)
             if (ctx.values[i] != VertexValue::none)
                 ctx.out[k * ctx.stride + i] = values[ctx.values[i]];
@@ -579,7 +651,7 @@ void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
             const auto x = static_cast<float>(tile_x(packet.pixels[i]) + run.offset_x);
             const auto y = static_cast<float>(tile_y(packet.pixels[i]) + run.offset_y);
             const auto at = [&](int attribute) -> Changing {
-                const AttributePlane& p = run.planes[attribute + 1];
+                const Equation p = equation(ctx.runs, attribute + 1, k);
                 return {(p.origin + p.dx * x) + p.dy * y, p.dx, p.dy};
             };
             attribute(packet, ctx.footprint.out)[i] = footprint(ctx.footprint, at);
@@ -1293,6 +1365,7 @@ const KernelTable& table_reference() noexcept {
         .rasterize_tiny = rasterize_tiny,
         .cover = cover,
         .collect = collect,
+        .attribute_planes = attribute_planes,
         .attributes = attributes,
         .lighting = lighting,
         .encode_nine_bit = encode<NineBit>,

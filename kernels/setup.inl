@@ -1,20 +1,17 @@
-/// Number of each lane, and the bit with that number.
-struct LaneNumbers {
-    alignas(64) std::int32_t number[16], bit[16];
+/// The bit of each lane.
+struct LaneBits {
+    alignas(64) std::int32_t bit[16];
 };
-constexpr LaneNumbers make_lane_numbers() {
-    LaneNumbers lanes{};
-    for (int i = 0; i < 16; ++i) {
-        lanes.number[i] = i;
-        lanes.bit[i] = 1 << i;
-    }
+constexpr LaneBits make_lane_bits() {
+    LaneBits lanes{};
+    for (int i = 0; i < 16; ++i) lanes.bit[i] = 1 << i;
     return lanes;
 }
-constexpr LaneNumbers kLaneNumbers = make_lane_numbers();
+constexpr LaneBits kLaneBits = make_lane_bits();
 
 /// The way back from `bits`.
 inline Mask32 lane_mask(std::uint32_t lanes) {
-    return (I32(static_cast<std::int32_t>(lanes)) & load(kLaneNumbers.bit)) != I32(0);
+    return (I32(static_cast<std::int32_t>(lanes)) & load(kLaneBits.bit)) != I32(0);
 }
 
 /// Corners of one triangle per lane.
@@ -24,28 +21,11 @@ struct CornerLanes {
     I32 outcode;
 };
 
-/// Four vectors of 32-bit elements, transposed lane by lane: row[i] gets element i of each. Its own
-/// inverse.
-inline void transpose(I16 (&row)[4]) {
-    const I16 low01 = zip_lo32(row[0], row[1]), high01 = zip_hi32(row[0], row[1]);
-    const I16 low23 = zip_lo32(row[2], row[3]), high23 = zip_hi32(row[2], row[3]);
-    row[0] = zip_lo64(low01, low23);
-    row[1] = zip_hi64(low01, low23);
-    row[2] = zip_lo64(high01, high23);
-    row[3] = zip_hi64(high01, high23);
-}
-
 /// Corner `which` of kLanes32 triangles.
 inline CornerLanes load_corners(const ScreenVertex* vertices, const std::uint32_t* indices,
                                 int which) {
-    I16 row[4];
-    for (int j = 0; j < 4; ++j) {
-        const void* from[kParts];
-        for (int k = 0; k < kParts; ++k) from[k] = vertices + indices[3 * (4 * k + j) + which];
-        row[j] = load_lanes(from);
-    }
-    transpose(row);
-    return {as_i32(row[0]), as_i32(row[1]), as_f32(as_i32(row[2])), as_i32(row[3])};
+    const Columns corner = load_columns([&](int k) { return vertices + indices[3 * k + which]; });
+    return {corner[0], corner[1], corner.floats(2), corner[3]};
 }
 
 /// Edges at pixel centres of the box, for triangles in lanes: tiny ones' values stay below 2^23.
@@ -137,7 +117,7 @@ inline F64 twice_area(const CornerLanes (&v)[3]) {
 
 /// The fields of kLanes32 triangles, each a vector of 32 bits, in the order of SetupTriangle.
 struct SetupLanes {
-    I16 chunk[4][4];
+    Columns chunk[4];
 };
 
 /// Writes triangles one after the other; those whose bit is not set are overwritten by the next.
@@ -145,7 +125,7 @@ template <int Lane = 0>
 inline void write_triangles(const SetupLanes& lanes, std::uint32_t drawn, unsigned char* out) {
     if constexpr (Lane < kParts) {
         for (int j = 0; j < 4; ++j) {
-            for (int c = 0; c < 4; ++c) store_lane<Lane>(out + 16 * c, lanes.chunk[c][j]);
+            for (int c = 0; c < 4; ++c) store_lane<Lane>(out + 16 * c, lanes.chunk[c].column[j]);
             out += (drawn >> (4 * Lane + j) & 1) * sizeof(SetupTriangle);
         }
         write_triangles<Lane + 1>(lanes, drawn, out);
@@ -154,10 +134,10 @@ inline void write_triangles(const SetupLanes& lanes, std::uint32_t drawn, unsign
 
 /// The same for places.
 template <int Lane = 0>
-inline void write_places(const I16 (&place)[4], std::uint32_t drawn, unsigned char* out) {
+inline void write_places(const Columns& place, std::uint32_t drawn, unsigned char* out) {
     if constexpr (Lane < kParts) {
         for (int j = 0; j < 4; ++j) {
-            store_lane<Lane>(out, place[j]);
+            store_lane<Lane>(out, place.column[j]);
             out += (drawn >> (4 * Lane + j) & 1) * sizeof(SetupPlace);
         }
         write_places<Lane + 1>(place, drawn, out);
@@ -286,24 +266,23 @@ void setup(const SetupCtx& ctx) noexcept {
                     depth_plane<1>(v, ::xsimd::abs(area_high), reference_x, reference_y);
                 const F32 z_low = min(v[2].z, min(v[1].z, v[0].z)), z_high = max(v[2].z, z01);
                 const I32 number =
-                    load(kLaneNumbers.number) +
+                    load(kLaneNumbers.of32) +
                     I32(static_cast<std::int32_t>(ctx.number + static_cast<std::uint32_t>(first)));
                 const I32 flags = ::xsimd::select(swap, I32(1 << 30), zero) |
                                   I32(static_cast<std::int32_t>(ctx.draw));
                 const I32 corner = x0 | y0 << 16, opposite = x1 | y1 << 16;
                 SetupLanes fields{
-                    {{as_i16(v[0].x), as_i16(v[1].x), as_i16(v[2].x), as_i16(v[0].y)},
-                     {as_i16(v[1].y), as_i16(v[2].y), as_i16(corner), as_i16(opposite)},
-                     {as_i16(to_float(low.z, high.z)), as_i16(to_float(low.zx, high.zx)),
-                      as_i16(to_float(low.zy, high.zy)), as_i16(z_low)},
-                     {as_i16(z_high), as_i16(reference_x | reference_y << 16), as_i16(number),
-                      as_i16(flags)}}};
-                for (auto& chunk : fields.chunk) transpose(chunk);
+                    Columns{{as_i16(v[0].x), as_i16(v[1].x), as_i16(v[2].x), as_i16(v[0].y)}},
+                    Columns{{as_i16(v[1].y), as_i16(v[2].y), as_i16(corner), as_i16(opposite)}},
+                    Columns{{as_i16(to_float(low.z, high.z)), as_i16(to_float(low.zx, high.zx)),
+                             as_i16(to_float(low.zy, high.zy)), as_i16(z_low)}},
+                    Columns{{as_i16(z_high), as_i16(reference_x | reference_y << 16),
+                             as_i16(number), as_i16(flags)}}};
+                for (Columns& chunk : fields.chunk) chunk = transposed(chunk);
                 write_triangles(fields, lanes, reinterpret_cast<unsigned char*>(out));
                 const I32 tiles = ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize);
-                I16 place[4] = {as_i16(covered.rows[0]), as_i16(covered.rows[1]), as_i16(corner),
-                                as_i16(tiles)};
-                transpose(place);
+                const Columns place = transposed({{as_i16(covered.rows[0]), as_i16(covered.rows[1]),
+                                                   as_i16(corner), as_i16(tiles)}});
                 write_places(place, lanes, reinterpret_cast<unsigned char*>(out_places));
                 bounds.add(corner, opposite, lane_mask(lanes));
                 const int drawn = __builtin_popcount(lanes);

@@ -35,6 +35,19 @@ inline constexpr int kLanes = static_cast<int>(I16::size);    // 16-bit
 inline constexpr int kLanes32 = static_cast<int>(I32::size);  // 32-bit
 inline constexpr int kParts = kLanes / 8;                     // 128-bit lanes
 
+/// Number of each lane.
+struct LaneNumbers {
+    alignas(64) std::int16_t of16[kLanes];
+    alignas(64) std::int32_t of32[kLanes32];
+};
+constexpr LaneNumbers make_lane_numbers() {
+    LaneNumbers lanes{};
+    for (int i = 0; i < kLanes; ++i) lanes.of16[i] = static_cast<std::int16_t>(i);
+    for (int i = 0; i < kLanes32; ++i) lanes.of32[i] = i;
+    return lanes;
+}
+constexpr LaneNumbers kLaneNumbers = make_lane_numbers();
+
 inline I16 load(const std::int16_t* p) {
     return I16::load_unaligned(p);
 }
@@ -75,19 +88,18 @@ inline F32 divide(F32 a, F32 b) {
     return a / b;
 #endif
 }
-inline F32 square_root(F32 a) {
-#if defined(__aarch64__)
-    return vsqrtq_f32(a);
-#else
-    return ::xsimd::sqrt(a);
-#endif
-}
-
 inline F64 divide(F64 a, F64 b) {
 #if defined(__aarch64__)
     return vdivq_f64(a, b);
 #else
     return a / b;
+#endif
+}
+inline F32 square_root(F32 a) {
+#if defined(__aarch64__)
+    return vsqrtq_f32(a);
+#else
+    return ::xsimd::sqrt(a);
 #endif
 }
 
@@ -107,6 +119,11 @@ inline I32 truncate(F32 v) {
 inline F32 to_float(I32 v) {
     return ::xsimd::to_float(v);
 }
+
+/// As doubles, kLanes32 of them.
+struct Doubles {
+    F64 low, high;
+};
 
 /// Bytes of a 128-bit vector of four elements that bring those whose bit is set to the front.
 struct PackPatterns {
@@ -186,6 +203,22 @@ inline I16 narrow(I32 lo, I32 hi) {
 inline I16 shuffle_bytes(I16 v, I16 pattern) {
     return _mm512_shuffle_epi8(v, pattern);
 }
+inline Doubles to_double(F32 v) {
+    return {_mm512_cvtps_pd(_mm512_castps512_ps256(v)),
+            _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1))};
+}
+/// Rounded to nearest.
+inline F32 to_float(const Doubles& v) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(v.low)),
+                              _mm512_cvtpd_ps(v.high), 1);
+}
+/// Lane k of the result is lane index[k], 0 .. kLanes32 - 1.
+struct LaneOrder {
+    explicit LaneOrder(I32 index) : order(index) {}
+    F32 operator()(F32 v) const { return _mm512_permutexvar_ps(order, v); }
+    I32 operator()(I32 v) const { return _mm512_permutexvar_epi32(order, v); }
+    __m512i order;
+};
 /// kLanes32 consecutive unsigned 16-bit values, in order; and the way back, for values that fit.
 inline I32 load_widened(const std::uint16_t* p) {
     return _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
@@ -251,6 +284,26 @@ inline I16 load_lanes(const void* const* p) {
     const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(lane(2)), lane(3), 1);
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
+/// Lane k to p[k].
+inline void store_lanes(void* const* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p[0]), _mm512_castsi512_si128(v));
+    _mm_storeu_si128(static_cast<__m128i*>(p[1]), _mm512_extracti32x4_epi32(v, 1));
+    _mm_storeu_si128(static_cast<__m128i*>(p[2]), _mm512_extracti32x4_epi32(v, 2));
+    _mm_storeu_si128(static_cast<__m128i*>(p[3]), _mm512_extracti32x4_epi32(v, 3));
+}
+
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0x88);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0xdd);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), b);
+}
 
 #elif defined(__AVX2__)
 
@@ -311,6 +364,20 @@ inline I16 narrow(I32 lo, I32 hi) {
 inline I16 shuffle_bytes(I16 v, I16 pattern) {
     return _mm256_shuffle_epi8(v, pattern);
 }
+inline Doubles to_double(F32 v) {
+    return {_mm256_cvtps_pd(_mm256_castps256_ps128(v)),
+            _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1))};
+}
+inline F32 to_float(const Doubles& v) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(v.low)),
+                                _mm256_cvtpd_ps(v.high), 1);
+}
+struct LaneOrder {
+    explicit LaneOrder(I32 index) : order(index) {}
+    F32 operator()(F32 v) const { return _mm256_permutevar8x32_ps(v, order); }
+    I32 operator()(I32 v) const { return _mm256_permutevar8x32_epi32(v, order); }
+    __m256i order;
+};
 inline I32 load_widened(const std::uint16_t* p) {
     return _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
 }
@@ -375,6 +442,23 @@ inline I16 load_lanes(const void* const* p) {
     const auto lane = [&](int k) { return _mm_loadu_si128(static_cast<const __m128i*>(p[k])); };
     return _mm256_inserti128_si256(_mm256_castsi128_si256(lane(0)), lane(1), 1);
 }
+inline void store_lanes(void* const* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p[0]), _mm256_castsi256_si128(v));
+    _mm_storeu_si128(static_cast<__m128i*>(p[1]), _mm256_extracti128_si256(v, 1));
+}
+
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x20);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x31);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return even_lanes(a, b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return odd_lanes(a, b);
+}
 
 #elif defined(__SSE4_2__)
 
@@ -435,6 +519,20 @@ inline I16 narrow(I32 lo, I32 hi) {
 inline I16 shuffle_bytes(I16 v, I16 pattern) {
     return _mm_shuffle_epi8(v, pattern);
 }
+inline Doubles to_double(F32 v) {
+    return {_mm_cvtps_pd(v), _mm_cvtps_pd(_mm_movehl_ps(v, v))};
+}
+inline F32 to_float(const Doubles& v) {
+    return _mm_movelh_ps(_mm_cvtpd_ps(v.low), _mm_cvtpd_ps(v.high));
+}
+struct LaneOrder {
+    explicit LaneOrder(I32 index) : bytes(index * I32(0x04040404) + I32(0x03020100)) {}
+    F32 operator()(F32 v) const {
+        return _mm_castsi128_ps(_mm_shuffle_epi8(_mm_castps_si128(v), bytes));
+    }
+    I32 operator()(I32 v) const { return _mm_shuffle_epi8(v, bytes); }
+    __m128i bytes;
+};
 inline I32 load_widened(const std::uint16_t* p) {
     return _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
 }
@@ -484,6 +582,22 @@ inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
 
 inline I16 load_lanes(const void* const* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p[0]));
+}
+inline void store_lanes(void* const* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p[0]), v);
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
 }
 
 #elif defined(__aarch64__)
@@ -557,6 +671,23 @@ inline I16 narrow(I32 lo, I32 hi) {
 inline I16 shuffle_bytes(I16 v, I16 pattern) {
     return vreinterpretq_s16_u8(vqtbl1q_u8(vreinterpretq_u8_s16(v), vreinterpretq_u8_s16(pattern)));
 }
+inline Doubles to_double(F32 v) {
+    return {vcvt_f64_f32(vget_low_f32(v)), vcvt_high_f64_f32(v)};
+}
+inline F32 to_float(const Doubles& v) {
+    return vcvt_high_f32_f64(vcvt_f32_f64(v.low), v.high);
+}
+struct LaneOrder {
+    explicit LaneOrder(I32 index)
+        : bytes(vreinterpretq_u8_s32(index * I32(0x04040404) + I32(0x03020100))) {}
+    F32 operator()(F32 v) const {
+        return vreinterpretq_f32_u8(vqtbl1q_u8(vreinterpretq_u8_f32(v), bytes));
+    }
+    I32 operator()(I32 v) const {
+        return vreinterpretq_s32_u8(vqtbl1q_u8(vreinterpretq_u8_s32(v), bytes));
+    }
+    uint8x16_t bytes;
+};
 inline I32 load_widened(const std::uint16_t* p) {
     return vreinterpretq_s32_u32(vmovl_u16(vld1_u16(p)));
 }
@@ -601,6 +732,22 @@ inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
 inline I16 load_lanes(const void* const* p) {
     return vld1q_s16(static_cast<const int16_t*>(p[0]));
 }
+inline void store_lanes(void* const* p, I16 v) {
+    vst1q_s16(static_cast<int16_t*>(p[0]), v);
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
+}
 
 #else
 #error "no vector wrappers for this architecture"
@@ -630,6 +777,40 @@ inline I32 widen_lo(I16 v) {
 }
 inline I32 widen_hi(I16 v) {
     return as_i32(zip_hi16(v, v)) >> 16;
+}
+
+/// Four vectors of 32-bit numbers.
+struct Columns {
+    I32 operator[](int c) const { return as_i32(column[c]); }
+    F32 floats(int c) const { return as_f32(as_i32(column[c])); }
+    I16 column[4];
+};
+/// Rows of four numbers to columns of them, in each lane, and the way back.
+inline Columns transposed(const Columns& m) {
+    const I16 a = zip_lo32(m.column[0], m.column[1]), b = zip_hi32(m.column[0], m.column[1]);
+    const I16 c = zip_lo32(m.column[2], m.column[3]), d = zip_hi32(m.column[2], m.column[3]);
+    return {{zip_lo64(a, c), zip_hi64(a, c), zip_lo64(b, d), zip_hi64(b, d)}};
+}
+/// Columns of kLanes32 rows of four 32-bit numbers; row(k) says where row k is.
+template <class Row>
+Columns load_columns(Row&& row) {
+    Columns rows;
+    for (int j = 0; j < 4; ++j) {
+        const void* lanes[kParts];
+        for (int k = 0; k < kParts; ++k) lanes[k] = row(4 * k + j);
+        rows.column[j] = load_lanes(lanes);
+    }
+    return transposed(rows);
+}
+/// The way back.
+template <class Row>
+void store_columns(const Columns& columns, Row&& row) {
+    const Columns rows = transposed(columns);
+    for (int j = 0; j < 4; ++j) {
+        void* lanes[kParts];
+        for (int k = 0; k < kParts; ++k) lanes[k] = row(4 * k + j);
+        store_lanes(lanes, rows.column[j]);
+    }
 }
 
 inline I16 as_signed(U16 v) {

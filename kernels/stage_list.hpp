@@ -15,7 +15,8 @@
     X(rasterize, RasterizeCtx)          \
     X(rasterize_tiny, RasterizeTinyCtx) \
     X(cover, CoverCtx)                  \
-    X(collect, CollectCtx)
+    X(collect, CollectCtx)              \
+    X(attribute_planes, AttributePlanesCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.
 #define BURNISH_PACKET_STAGES(X)          \

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "kernels/packet.hpp"
@@ -164,7 +165,9 @@ struct VertexValue {
     static constexpr std::int8_t h_dot_l = 13;
     static constexpr std::int8_t lit = 14;     ///< three components: n_dot_l * tint + base
     static constexpr std::int8_t normal = 17;  ///< object space, x/2 + 1/2
-    static constexpr int count = 20;
+    static constexpr std::int8_t uv = 20;      ///< u, 1 - v
+    static constexpr std::int8_t frame = 22;   ///< tangent, bitangent, normal and position
+    static constexpr int count = 34;
 };
 
 /// A light at `count` vertices. All arithmetic in float, no operation fused, dot(a, b) =
@@ -177,6 +180,7 @@ struct VertexValue {
 ///   half_sum = (dot(t, sum * 0.5), ...)
 ///   n_dot_l = max(dot(n, l), 0), h_dot_l = max(dot(h, l), 0): 0 for a NaN
 ///   normal = (n as it came) * 0.5 + 0.5
+///   frame = t, cross(n, t) * sign, n and position as they came
 struct LightVerticesCtx {
     static constexpr int kFrameFloats = 12;
     const float* frames;  ///< kFrameFloats each: position, normal, tangent and its sign, uv
@@ -188,6 +192,35 @@ struct LightVerticesCtx {
     const std::int8_t* values;  ///< `stride` VertexValues; `none` leaves a float as it is
     int stride;
     float* out;  ///< vertex by vertex, `stride` floats each
+};
+
+/// A triangle whose attributes are to be interpolated.
+struct PlaneTriangle {
+    std::int32_t x[3], y[3];                ///< corners, window, 1/256 pixel, |x| < 2^24
+    std::uint32_t vertex[3];                ///< the vertices at the corners
+    std::int32_t reference_x, reference_y;  ///< pixel
+    std::int32_t clipped;                   ///< 1: corners are where the vertices are, not x, y
+};
+
+/// Plane equations of 1/w and of attributes over w, for pixels of the window counted from the
+/// triangle's reference pixel, as AttributesCtx takes them. In double, no operation fused, sums of
+/// products from the left; origin, dx and dy are rounded to float at the end:
+///   v_i = ((x_i / 256 - cx) * w, (y_i / 256 - cy) * w, w), cx = reference_x + 0.5, cy likewise, w
+///   of the homogeneous vertex; clipped: (hx - cx * w, hy - cy * w, w)
+///   b_0 = cross(v_1, v_2), b_1 = cross(v_2, v_0), b_2 = cross(v_0, v_1), with
+///   cross(a, b) = (a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w, a.x * b.y - a.y * b.x)
+///   s = 1 / (v_0.x * b_0.x + v_0.y * b_0.y + v_0.w * b_0.w), then b_i = b_i * s
+///   of corner values a_i: origin = a_0 * b_0.w + a_1 * b_1.w + a_2 * b_2.w, dx likewise with b.x,
+///   dy with b.y; equation 0 has a_i = 1
+/// Where s is not finite the triangle is seen edge-on: origin = a_0, dx = dy = 0.
+struct AttributePlanesCtx {
+    const PlaneTriangle* triangles;
+    int count;  ///< 1 .. kPacketSize
+    const HomogeneousVertex* homogeneous;
+    const float* rows;  ///< attributes of vertex v at rows + v * row_stride, readable 3 past a row
+    std::ptrdiff_t row_stride;
+    int attribute_count;
+    float* equations;  ///< out: as AttributesCtx has them, writable 16 past the last triangle
 };
 
 /// A triangle as one tile sees it. Inside where a*x + b*y + c >= 0 for every edge, for whole tile
@@ -211,12 +244,13 @@ struct TileTriangle {
 /// are replaced. Equal depths compare equal; there are no NaNs.
 /// `block_far[k]` is an upper bound of the depths of block k, kept up to date; kernels may skip a
 /// block by it only where no fragment of it could pass. Bit k of a triangle's `drawn` tells whether
-/// a fragment of it passed in block k.
+/// a fragment of it passed in block k. Depths alone: where `id` is null there are no ids, and
+/// `drawn` is left as it is.
 struct RasterizeCtx {
     const TileTriangle* triangles;
     int count;
     float* depth;          ///< kTilePixels
-    std::uint32_t* id;     ///< kTilePixels
+    std::uint32_t* id;     ///< kTilePixels, or null
     float* block_far;      ///< kTileBlocks
     std::uint64_t* drawn;  ///< out, `count` elements
 };
@@ -232,9 +266,9 @@ struct RasterizeTinyCtx {
     std::int32_t left, top;  ///< pixel of the frame at the tile's corner
     std::uint32_t first_id;
     float* depth;          ///< kTilePixels, and one more that may hold anything afterwards
-    std::uint32_t* id;     ///< likewise
+    std::uint32_t* id;     ///< likewise; null: depths alone
     float* block_far;      ///< kTileBlocks
-    std::uint64_t* drawn;  ///< out, `count` elements
+    std::uint64_t* drawn;  ///< out, `count` elements; unused without ids
 };
 
 /// One triangle's coverage and depth as RasterizeCtx has them, for draws that need order: in place

@@ -133,14 +133,14 @@ void prepare_shading(Shading& shading, const FrameView& frame, const Object& obj
     shading.frames = mesh != nullptr ? mesh->frames() : std::span<const VertexFrame>{};
 }
 
-void transform_varyings(Shading& shading, const Object& object, const KernelTable& kernels,
-                        WorkerPool& pool) {
+void fill_rows(Shading& shading, const Object& object, const KernelTable& kernels,
+               WorkerPool& pool) {
     if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
-        mesh_varyings(mesh->frames(), shading.varying_list, shading.lights, kernels, pool,
-                      shading.varyings);
+        mesh_rows(mesh->frames(), shading.frame_attributes, shading.varying_list, shading.lights,
+                  kernels, pool, shading.rows);
     } else {
-        raw_varyings(std::get<RawVertices>(object.geometry).vertices, shading.varying_list,
-                     shading.program.numbers, shading.varyings);
+        raw_rows(std::get<RawVertices>(object.geometry).vertices, shading.varying_list,
+                 shading.program.numbers, shading.rows);
     }
 }
 
@@ -217,11 +217,12 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object,
 void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
     const DepthRule depth = comparison_rule(object.raster.depth_test, object.raster.depth_write);
     // What is shown instead of colours is that of the last fragment: nothing is blended.
-    const bool shows_colors = !frame.shown && !frame.aov;
+    const bool shows_colors = !frame.shown && !frame.aov && frame.format != PixelFormat::depth32f;
     draw.output = plan_output(draw.shading, shows_colors ? object.raster.blend : std::nullopt,
                               object.material ? object.material->alpha_test : AlphaTest{}, depth);
     draw.depth = early_rule(draw.shading, draw.output);
     draw.ordered = needs_order(draw.output);
+    draw.shaded = true;
     draw.shown.reset();
     if (!frame.aov) return;
     const double aspect =
@@ -234,9 +235,9 @@ void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
 
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
                     const KernelTable& kernels, WorkerPool& pool) {
-    transform_varyings(draw.shading, object, kernels, pool);
-    if (draw.shown && !draw.shown->aov)
-        transform_varyings(draw.shown->values, object, kernels, pool);
+    if (draw.shaded) fill_rows(draw.shading, object, kernels, pool);
+    if (draw.shown && (!draw.shown->aov || draw.shown->values.frame_attributes > 0))
+        fill_rows(draw.shown->values, object, kernels, pool);
     if (const auto* mesh = std::get_if<Mesh>(&object.geometry)) {
         draw.screen.resize(mesh->vertex_count());
         draw.homogeneous.resize(mesh->vertex_count());

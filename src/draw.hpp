@@ -31,6 +31,7 @@ struct Draw {
     DepthRule depth{};  ///< before shading
     FragmentOutput output;
     bool ordered = false;              ///< fragments must be shaded in the order of submission
+    bool shaded = true;                ///< fragments run the program; else they leave depths alone
     std::optional<ShownValues> shown;  ///< instead of colours
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
@@ -67,7 +68,7 @@ void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, Deri
 /// Depth test, alpha test and blending, as draw.shading, which is planned, calls for them.
 void plan_fragments(Draw& draw, const FrameView& frame, const Object& object);
 
-/// Vertices to the screen, and what they hand to the interpolators.
+/// Vertices to the screen and, if fragments are shaded, what they hand to the interpolators.
 void transform_draw(Draw& draw, const FrameView& frame, const Object& object,
                     const KernelTable& kernels, WorkerPool& pool);
 

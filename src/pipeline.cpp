@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/cpu.hpp"
+#include "core/frame_account.hpp"
 #include "draw.hpp"
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
@@ -30,6 +31,12 @@ std::int32_t tile_count(std::int32_t pixels) {
     return (pixels + kTileSize - 1) / kTileSize;
 }
 
+/// Pixels of the frame in tile (x, y).
+std::uint64_t pixels_of(FrameSize frame, std::int32_t x, std::int32_t y) {
+    return static_cast<std::uint64_t>(std::min(kTileSize, frame.width - x * kTileSize)) *
+           static_cast<std::uint64_t>(std::min(kTileSize, frame.height - y * kTileSize));
+}
+
 /// Triangles `first` .. `last` - 1 of draw `draw`.
 struct ChunkRange {
     std::uint32_t draw;
@@ -44,6 +51,7 @@ struct Worker {
     TileImage image;
     bool has_background = false;  ///< pixels that no fragment wrote are what they should be
     std::uint64_t tiles = 0;
+    StageClock* clock = nullptr;  ///< while the frame is accounted for
 };
 
 void require_machine(const Scene& scene, const char* shown) {
@@ -54,36 +62,49 @@ void require_machine(const Scene& scene, const char* shown) {
                             shown));
 }
 
-StoreFormat store_format(PixelFormat format) {
-    return static_cast<StoreFormat>(format);
+void require_colors(const Framebuffer& target, const char* shown) {
+    if (target.format() != PixelFormat::depth32f) return;
+    throw Error(ErrorCode::bad_option,
+                fmt::format("{} into a frame of depths, which takes the depth buffer alone; "
+                            "expected a frame of colours",
+                            shown));
 }
 
 }  // namespace
 
 struct Renderer::State {
     State(const RendererOptions& options)
-        : kernels(select_table(options.isa)),
-          pool(options.threads),
+        : pool(options.threads),
+          account(options.accounting
+                      ? std::make_unique<FrameAccount>(select_table(options.isa), pool.size())
+                      : nullptr),
+          kernels(account ? account->timed() : select_table(options.isa)),
           memory_cap(options.memory_cap),
-          double_samples(options.double_samples) {}
+          double_samples(options.double_samples) {
+        pool.keep_account(account.get());
+    }
 
     void prepare(const Scene& scene, const Framebuffer& target,
                  const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
+    void weigh_tiles(std::int32_t columns, std::size_t count);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
     void shade_visible(Worker& worker);
     void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const TileEntry> entries);
     float* saved_depth(std::int32_t x, std::int32_t y);
+    OutputTile output_of(Worker& worker) const;
 
-    const KernelTable& kernels;
     WorkerPool pool;
+    std::unique_ptr<FrameAccount> account;  ///< null: nobody asked
+    const KernelTable& kernels;
     std::size_t memory_cap;
     int double_samples;
 
     FrameView frame{};
+    bool depth_alone = false;  ///< the frame shows the depth buffer: fragments have no colours
     FrameSize size{};
     std::vector<std::unique_ptr<Draw>> draws;
     std::vector<DepthRule> depth_rules;
@@ -93,7 +114,9 @@ struct Renderer::State {
     std::vector<std::unique_ptr<Chunk>> chunks;
     std::size_t chunk_count = 0;  ///< of this round
     std::vector<std::unique_ptr<Worker>> workers;
-    AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
+    std::vector<std::uint32_t> weights;  ///< of tiles
+    WorkOrder order;                     ///< of tiles
+    AlignedVector<float> depth;          ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
     HalfVectorCube half_cube;
 };
@@ -112,6 +135,7 @@ int Renderer::threads() const noexcept {
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
     if (scene.machine.double_precision) {
+        if (target.format() == PixelFormat::depth32f) require_machine(scene, "a frame of depths");
         scene.machine.validate();
         return render_double(scene, target, m_state->pool, {.samples = m_state->double_samples});
     }
@@ -120,12 +144,14 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, const ShownRegister& shown) {
     require_machine(scene, "a register");
+    require_colors(target, "a register");
     require_showable(shown.reg, scene.machine);
     return render_shown(scene, target, shown, std::nullopt);
 }
 
 FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) {
     require_machine(scene, "geometry");
+    require_colors(target, "geometry");
     return render_shown(scene, target, std::nullopt, shown);
 }
 
@@ -136,6 +162,12 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
                                   std::optional<Aov> aov) {
     State& s = *m_state;
     FrameStats stats;
+    std::optional<ClockLoan> clock;
+    if (s.account) {
+        s.account->start(static_cast<std::size_t>(tile_count(target.width())) *
+                         static_cast<std::size_t>(tile_count(target.height())));
+        clock.emplace(s.account->clock(0), StageClock::place(FrameStage::prepare));
+    }
     try {
         const auto start = Clock::now();
         s.prepare(scene, target, shown, aov);
@@ -160,6 +192,8 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
         stats.shaded_pixels += worker->shader.shaded_pixels();
         stats.tiles_per_worker.push_back(worker->tiles);
     }
+    clock.reset();
+    if (s.account) s.account->finish(stats);
     return stats;
 }
 
@@ -180,34 +214,49 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     ranges.clear();
     next_range = 0;
     std::size_t triangles = 0;
+    bool all_write_depths = true;
     for (std::size_t i = 0; i < draws.size(); ++i) {
         prepare_draw(*draws[i], frame, scene.objects[i], maps);
         triangles += draws[i]->triangle_count();
+        all_write_depths = all_write_depths && draws[i]->output.depth.write != 0;
     }
+    // The depths of the fragments seen last are then what the depth buffer holds.
+    depth_alone =
+        target.format() == PixelFormat::depth32f || (aov == Aov::depth && all_write_depths);
     const std::size_t step = chunk_size(size, triangles);
     for (std::uint32_t i = 0; i < draws.size(); ++i) {
+        if (depth_alone && draws[i]->output.depth.write == 0) continue;
         const std::size_t count = draws[i]->triangle_count();
         for (std::size_t first = 0; first < count; first += step) {
             ranges.push_back({i, first, std::min(first + step, count)});
         }
     }
     maps.drop_unused();
+    if (account) {
+        account->clock(0).count(StageClock::place(FrameStage::prepare), scene.objects.size());
+    }
     if (!workers.empty() && workers.front()->image.format() != target.format()) workers.clear();
     while (workers.size() < static_cast<std::size_t>(pool.size())) {
         workers.push_back(std::make_unique<Worker>(target.format()));
     }
-    for (const auto& worker : workers) {
+    for (std::size_t i = 0; i < workers.size(); ++i) {
+        const auto& worker = workers[i];
+        worker->clock = account ? &account->clock(static_cast<int>(i)) : nullptr;
         worker->tiles = 0;
-        worker->image.set_background(aov ? background_of(*aov) : scene.background);
+        worker->image.set_background(depth_alone ? background_of(Aov::depth)
+                                     : aov       ? background_of(*aov)
+                                                 : scene.background);
         worker->shader.reset_count();
     }
 }
 
 void Renderer::State::transform(const Scene& scene) {
+    const StageScope scope(FrameStage::transform);
     depth_rules.clear();
     shaded_draws.clear();
     for (std::size_t i = 0; i < draws.size(); ++i) {
         Draw& draw = *draws[i];
+        draw.shaded = !depth_alone || draw.output.late_depth;
         transform_draw(draw, frame, scene.objects[i], kernels, pool);
         depth_rules.push_back(draw.depth);
         shaded_draws.push_back(
@@ -217,6 +266,7 @@ void Renderer::State::transform(const Scene& scene) {
 
 /// Chunks in order until all are binned or the memory cap is met; at least one.
 void Renderer::State::bin(FrameStats& stats) {
+    const StageScope scope(FrameStage::bin);
     const std::size_t first = next_range;
     const std::size_t left = ranges.size() - first;
     while (chunks.size() < left) chunks.push_back(std::make_unique<Chunk>());
@@ -262,15 +312,35 @@ float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
 }
 
 void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool last_round) {
+    const StageScope scope(FrameStage::packets);
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (!last_round) depth.resize(count * kTilePixels);
-    for_each_index(pool, count, 1, [&](std::size_t i, int w) {
+    weigh_tiles(columns, count);
+    order_work(weights, pool.size(), order);
+    for_each_piece(pool, order, [&](std::size_t i, int w) {
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
         ++worker.tiles;
+        const std::uint64_t start = account ? ticks() : 0,
+                            fragments = worker.shader.shaded_pixels();
         draw_tile(worker, tile % columns, tile / columns, target, first_round, last_round);
+        if (account)
+            account->add_tile(i, ticks() - start, weights[i],
+                              worker.shader.shaded_pixels() - fragments);
     });
+}
+
+/// What a tile will cost: its triangles, and its pixels if there are any.
+void Renderer::State::weigh_tiles(std::int32_t columns, std::size_t count) {
+    constexpr std::uint32_t kPixels =
+        200;  // shading a whole tile costs as much as so many triangles
+    weights.assign(count, 0);
+    if (pool.size() == 1 && !account) return;
+    for (std::size_t i = 0; i < chunk_count; ++i)
+        chunks[i]->add_lengths(weights, static_cast<std::size_t>(columns));
+    for (std::uint32_t& weight : weights)
+        if (weight > 0) weight += kPixels;
 }
 
 /// Everything of one tile, in one worker's cache, then once to the frame. Draws that need no order
@@ -283,18 +353,19 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     const bool empty = std::all_of(binned.begin(), binned.end(),
                                    [&](const auto& chunk) { return chunk->tile(x, y).empty(); });
     if (empty && first_round && last_round) {
+        const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
         return worker.image.resolve_empty(target, x * kTileSize, y * kTileSize);
     }
-    visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+    {
+        const StageScope scope(FrameStage::coverage, 0, worker.clock);
+        visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+    }
     worker.has_background = false;
-    if (!first_round) {
+    if (!first_round && !depth_alone) {
         worker.image.load(target, visibility.left(), visibility.top());
         worker.has_background = true;
     }
-    worker.shader.begin({visibility.left(),
-                         visibility.top(),
-                         {store_format(worker.image.format()), worker.image.pixels(),
-                          visibility.depth(), visibility.block_far()}});
+    worker.shader.begin({visibility.left(), visibility.top(), output_of(worker)});
     for (const auto& chunk : binned) {
         const std::span<const TileEntry> entries = chunk->tile(x, y);
         if (entries.empty()) continue;
@@ -304,20 +375,43 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
             draw_ordered(worker, *chunk, entries);
         } else {
             worker.shader.flush(kernels);
-            visibility.draw(*chunk, depth_rules, kernels);
+            const StageScope scope(FrameStage::coverage, 0, worker.clock);
+            depth_alone ? visibility.draw_depths(*chunk, depth_rules, kernels)
+                        : visibility.draw(*chunk, depth_rules, kernels);
         }
     }
     worker.shader.flush(kernels);
     shade_visible(worker);
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
-    worker.image.resolve(target, visibility.left(), visibility.top());
+    const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
+    if (!depth_alone) {
+        worker.image.resolve(target, visibility.left(), visibility.top());
+    } else if (last_round) {
+        worker.image.resolve_depths(visibility.depth(), target, visibility.left(),
+                                    visibility.top());
+    }
 }
 
-/// Shades what the visibility buffer holds. Afterwards every pixel of the tile has a colour.
+OutputTile Renderer::State::output_of(Worker& worker) const {
+    TileVisibility& visibility = worker.visibility;
+    if (depth_alone) return {{}, nullptr, visibility.depth(), visibility.block_far()};
+    return {static_cast<StoreFormat>(worker.image.format()), worker.image.pixels(),
+            visibility.depth(), visibility.block_far()};
+}
+
+/// Shades what the visibility buffer holds. Afterwards every pixel of the tile has a colour, if the
+/// frame has any.
 void Renderer::State::shade_visible(Worker& worker) {
+    if (depth_alone) return;
     TileFragments fragments{};
-    if (worker.visibility.shows_anything()) fragments = worker.visibility.collect(kernels);
-    if (!worker.has_background && fragments.count < kTilePixels) worker.image.clear();
+    if (worker.visibility.shows_anything()) {
+        const StageScope scope(FrameStage::coverage, 0, worker.clock);
+        fragments = worker.visibility.collect(kernels);
+    }
+    if (!worker.has_background && fragments.count < kTilePixels) {
+        const StageScope scope(FrameStage::resolve, 0, worker.clock);
+        worker.image.clear();
+    }
     worker.has_background = true;
     if (fragments.count == 0) return;
     worker.shader.shade(fragments, shaded_draws, kernels);
@@ -331,8 +425,10 @@ void Renderer::State::draw_ordered(Worker& worker, const Chunk& chunk,
                              kernels);
     for (const TileEntry& entry : entries) {
         const SetupTriangle& triangle = chunk.triangles()[entry.triangle];
-        if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed)) {
-            continue;
+        {
+            const StageScope scope(FrameStage::coverage, 0, worker.clock);
+            if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed))
+                continue;
         }
         worker.shader.add(triangle, passed, kernels);
     }

@@ -2,9 +2,12 @@
 // picture, whatever draws them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <burnish/error.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
+#include <burnish/trace.hpp>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -12,6 +15,7 @@
 #include <vector>
 
 #include "tests/scenes.hpp"
+#include "tests/unit_scene.hpp"
 #include "tests/vertex_color.hpp"
 
 namespace burnish {
@@ -206,6 +210,131 @@ TEST(AovTest, ShowsTheFragmentsOfThePicture) {
     EXPECT_EQ(at<float>(depth, 12, 6)[0], 0.5F);
     EXPECT_EQ(at<float>(depth, 3, 2), (Floats{0.25F, 0.25F, 0.25F, 1.0F}));
     EXPECT_EQ(at<float>(shown(scene, Aov::triangle), 12, 6)[1], 1.0F);
+}
+
+Scene with_depths_of_all_draws(Scene scene) {
+    for (Object& object : scene.objects) object.raster.depth_write = true;
+    return scene;
+}
+/// The same picture, in which not every draw writes its depths.
+Scene with_a_draw_of_no_depth(Scene scene) {
+    Object outside = raw_scene({vertex(-9, 0, 0.5F), vertex(-8, 0, 0.5F), vertex(-8, 8, 0.5F)},
+                               Topology::triangles)
+                         .objects[0];
+    outside.raster.depth_write = false;
+    scene.objects.push_back(outside);
+    return scene;
+}
+
+/// Row by row, drawn without colours.
+std::vector<float> depths_of(const Scene& scene, const RendererOptions& options,
+                             FrameStats* stats = nullptr) {
+    std::vector<float> depths(static_cast<std::size_t>(scene.width * scene.height), -1.0F);
+    Framebuffer frame(depths.data(), scene.width * std::ptrdiff_t{sizeof(float)}, scene.width,
+                      scene.height, PixelFormat::depth32f);
+    const FrameStats got = Renderer(options).render(scene, frame);
+    if (stats != nullptr) *stats = got;
+    return depths;
+}
+/// Red of the picture of depths that is made of fragments one by one.
+std::vector<float> fragment_depths(const Scene& scene) {
+    const Framebuffer frame = shown(with_a_draw_of_no_depth(scene), Aov::depth);
+    std::vector<float> depths;
+    for (int y = 0; y < scene.height; ++y)
+        for (int x = 0; x < scene.width; ++x) depths.push_back(at<float>(frame, x, y)[0]);
+    return depths;
+}
+
+TEST(AovTest, DepthsAloneAreThoseOfTheFragments) {
+    for (const Scene& original : {scenes::layers(), scenes::near_plane(), scenes::machine()}) {
+        const Scene scene = with_depths_of_all_draws(original);
+        const std::vector<float> want = fragment_depths(scene);
+        const bool tested =
+            std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+                return object.material && object.material->alpha_test.pass != Comparison::always;
+            });
+        for (const IsaInfo& isa : instruction_sets()) {
+            if (!isa.available) continue;
+            for (const std::size_t cap : {std::size_t{1}, std::size_t{1} << 28}) {
+                FrameStats stats;
+                ASSERT_EQ(depths_of(scene, {2, std::string(isa.name), cap}, &stats), want)
+                    << isa.name;
+                EXPECT_EQ(stats.shaded_pixels > 0, tested);
+            }
+        }
+    }
+}
+
+// Fragments that a texture shader drops, or whose depths it replaces.
+TEST(AovTest, DepthsAloneAreThoseThatShadingLeaves) {
+    int dropped = 0, moved = 0;
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        Random random(seed);
+        const UnitScene units(random, machine_profile("nv2a"));
+        const std::vector<float> want = fragment_depths(units.scene);
+        ASSERT_EQ(depths_of(units.scene, {.threads = 1}), want) << "seed " << seed;
+        for (const float depth : want) {
+            dropped += depth == 1.0F ? 1 : 0;
+            moved += depth != 1.0F && depth != 0.5F ? 1 : 0;
+        }
+    }
+    EXPECT_GT(dropped, 1000);
+    EXPECT_GT(moved, 50);
+}
+
+TEST(AovTest, DepthPicturesAreTheSameWithoutFragments) {
+    for (const PixelFormat format :
+         {PixelFormat::rgba8, PixelFormat::rgba16, PixelFormat::rgba32f}) {
+        const Scene scene = with_depths_of_all_draws(scenes::layers());
+        const Framebuffer alone = shown(scene, Aov::depth, format),
+                          fragments = shown(with_a_draw_of_no_depth(scene), Aov::depth, format);
+        for (int y = 0; y < scene.height; ++y)
+            ASSERT_EQ(std::memcmp(alone.row(y), fragments.row(y),
+                                  static_cast<std::size_t>(scene.width) * pixel_size(format)),
+                      0)
+                << "row " << y;
+    }
+}
+
+TEST(AovTest, DrawsThatWriteNoDepthLeaveNone) {
+    Scene scene = raw_scene(
+        {vertex(0, 0, 0.75F), vertex(16, 0, 0.75F), vertex(16, 8, 0.75F), vertex(0, 8, 0.75F)});
+    Object glass = raw_scene({vertex(0, 0, 0.25F), vertex(16, 0, 0.25F), vertex(16, 4, 0.25F),
+                              vertex(0, 4, 0.25F)})
+                       .objects[0];
+    glass.raster.depth_write = false;
+    scene.objects.push_back(glass);
+    EXPECT_EQ(depths_of(scene, {.threads = 1}), std::vector<float>(16 * 8, 0.75F));
+    EXPECT_EQ(at<float>(shown(scene, Aov::depth), 3, 2)[0], 0.25F);
+}
+
+TEST(AovTest, FramesOfDepthsTakeNothingElse) {
+    Scene scene = raw_scene({});
+    Framebuffer frame(16, 8, PixelFormat::depth32f);
+    Renderer renderer({.threads = 1});
+    const auto message = [](const auto& draw) {
+        try {
+            draw();
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), ErrorCode::bad_option);
+            return std::string(e.what());
+        }
+        return std::string("no error");
+    };
+    EXPECT_EQ(message([&] { renderer.render(scene, frame, Aov::normal); }),
+              "geometry into a frame of depths, which takes the depth buffer alone; expected a "
+              "frame of colours");
+    EXPECT_EQ(message([&] { renderer.render(scene, frame, ShownRegister{}); }),
+              "a register into a frame of depths, which takes the depth buffer alone; expected a "
+              "frame of colours");
+    scene.machine = machine_profile("double");
+    EXPECT_EQ(message([&] { renderer.render(scene, frame); }),
+              "a frame of depths with profile double, which delivers colours only; expected one "
+              "of the machines");
+    scene = raw_scene({});
+    scene.format = PixelFormat::depth32f;
+    EXPECT_EQ(message([&] { (void)trace_pixel(scene, 3, 3); }),
+              "a trace of a scene with format depth32f, expected a format of colours");
 }
 
 TEST(AovTest, TheSameBitsEverywhere) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <burnish/combiner.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
 #include <cmath>
@@ -165,15 +166,17 @@ class Measure {
 
     void measure_run(const TileVisibility& tile, const SetupTriangle& triangle,
                      const std::uint16_t* pixels, int count) {
-        std::array<AttributePlane, kMaxInterpolated + 1> planes{};
-        attribute_planes(m_draw.shading, m_draw.mesh(), triangle, planes.data());
+        const SetupTriangle* const only[1] = {&triangle};
+        m_equations.resize(equation_rows(m_draw.shading) * kAttributeStride);
+        attribute_planes(m_draw.shading, m_draw.mesh(), only, m_kernels, m_plane_inputs,
+                         m_equations.data());
         std::array<std::uint16_t, kPacketSize> padded{};
         std::copy_n(pixels, count, padded.begin());
         Packet packet{count,   padded.data(), m_attributes.data(), m_planes.data(), nullptr,
                       nullptr, nullptr};
-        const Run run{planes.data(), 0, count, tile.left() - triangle.reference_x,
+        const Run run{0, count, tile.left() - triangle.reference_x,
                       tile.top() - triangle.reference_y};
-        m_kernels.attributes(packet, {&run, 1, m_draw.shading.interpolated()});
+        m_kernels.attributes(packet, {&run, 1, m_draw.shading.interpolated(), m_equations.data()});
         std::vector<int> color_planes;
         for (const InputOp& op : m_draw.shading.inputs) {
             if (const auto* lighting = std::get_if<LightingCtx>(&op))
@@ -224,10 +227,11 @@ class Measure {
         std::array<double, 4> result{};
         const Shading& s = m_draw.shading;
         const std::array<std::uint32_t, 3> vertex = corner_vertices(m_draw.mesh(), t);
-        const std::size_t count = s.varying_list.size();
         for (std::size_t k = 0; k < 4; ++k) {
-            result[k] = blend(weights, s.varyings[vertex[0] * count + k],
-                              s.varyings[vertex[1] * count + k], s.varyings[vertex[2] * count + k]);
+            const auto value = [&](int i) {
+                return s.rows.row(vertex[static_cast<std::size_t>(i)])[kUvAttributes + k];
+            };
+            result[k] = blend(weights, value(0), value(1), value(2));
         }
         return result;
     }
@@ -246,7 +250,9 @@ class Measure {
             return sum;
         };
         const Vector t = mix([](const VertexFrame& v) { return glm::vec3(v.tangent); });
-        const Vector b = mix([](const VertexFrame& v) { return bitangent(v); });
+        const Vector b = mix([](const VertexFrame& v) {
+            return glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
+        });
         const Vector n = mix([](const VertexFrame& v) { return v.normal; });
         const Vector p = mix([](const VertexFrame& v) { return v.position; });
         const LightSpace& space = m_draw.shading.lights[0].space;
@@ -265,6 +271,8 @@ class Measure {
     Draw m_draw;
     double m_one = 255.0;
     AlignedVector<std::int16_t> m_planes;
+    PlaneInputs m_plane_inputs;
+    AlignedVector<float> m_equations;
     AlignedVector<float> m_attributes;
     Errors m_errors;
 };
@@ -307,6 +315,25 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Attributes, testing::Values("ellipsoid", "floor
                          [](const testing::TestParamInfo<const char*>& test) {
                              return std::string(test.param);
                          });
+
+/// What a mesh's triangles interpolate for a program that passes a register on.
+int interpolated(Register passed_on) {
+    using namespace combine;
+    ProgramBuilder p;
+    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(passed_on));
+    p.out_alpha(alpha(one()));
+    ProgramMaterial material;
+    material.combiners = p.build();
+    material.units = {std::make_shared<const Texture>(Image8(1, 1), Sampler{})};
+    Shading shading;
+    plan_shading(shading, {&material, 1}, machine_profile("geforce256"), true);
+    return shading.interpolated();
+}
+
+TEST(Planning, TrianglesInterpolateNothingForAProgramThatReadsNothing) {
+    EXPECT_EQ(interpolated(Register::const0), 0);
+    EXPECT_EQ(interpolated(tex(0)), kUvAttributes);
+}
 
 }  // namespace
 }  // namespace burnish

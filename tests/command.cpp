@@ -174,9 +174,25 @@ TEST_F(Command, StatsAreCountsAndTimes) {
     EXPECT_EQ(json.code, 0);
     EXPECT_TRUE(json.out.starts_with("{\"triangles\": ")) << json.out;
     EXPECT_TRUE(json.out.ends_with("}\n")) << json.out;
-    for (const char* key : {"shaded_pixels", "geometry_ms", "tiles_ms", "busy_threads", "isa"})
+    for (const char* key :
+         {"shaded_pixels", "geometry_ms", "tiles_ms", "busy_threads", "isa", "transform", "setup",
+          "bin", "coverage", "interpolate", "texture", "combine", "resolve", "waiting_ms"})
         EXPECT_SAYS(json.out, fmt::format("\"{}\": ", key));
-    EXPECT_SAYS(run("render s.toml --stats text").out, "shaded_pixels");
+    const std::string text = run("render s.toml --stats text").out;
+    EXPECT_SAYS(text, "shaded_pixels");
+    EXPECT_SAYS(text, "values, ");
+}
+
+// 40 x 30 pixels are one tile: it is the whole of the tiles' time, and no worker more helps.
+TEST_F(Command, BalanceTellsTheLongestTile) {
+    write_scene("s.toml");
+    const Result text = run("bench s.toml --balance --frames 2");
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_SAYS(text.out, "1.0 times that");
+    const Result json = run("bench s.toml --balance --frames 2 --json");
+    EXPECT_TRUE(json.out.starts_with("{\"tiles\": 1, ")) << json.out;
+    EXPECT_SAYS(json.out, "\"workers\": 64, ");
+    EXPECT_EQ(run("bench s.toml --balance --machine double").code, 2);
 }
 
 TEST_F(Command, TurntableNumbersItsFiles) {

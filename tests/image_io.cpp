@@ -119,6 +119,19 @@ TEST_F(ImageFiles, FloatFramesReachEXR) {
     EXPECT_EQ(load_image(path("float.exr")).rgba, (std::vector<std::uint8_t>{0, 128, 255, 255}));
 }
 
+TEST_F(ImageFiles, DepthsAreOneChannel) {
+    Framebuffer frame(2, 1, PixelFormat::depth32f);
+    const float depths[2]{0.25F, 1.0F};
+    std::memcpy(frame.row(0), depths, sizeof depths);
+    for (const char* name : {"depths.exr", "depths.png"}) {
+        save_image(frame, path(name));
+        // As 8 bits: 0.25 * 255 is 63.75.
+        EXPECT_EQ(load_image(path(name)).rgba,
+                  (std::vector<std::uint8_t>{64, 64, 64, 255, 255, 255, 255, 255}))
+            << name;
+    }
+}
+
 TEST_F(ImageFiles, FilesDoNotCarryTheTimeOfWriting) {
     for (const char* name : {"dated.exr", "dated.tif"}) {
         save_image(busy_image(8, 8), path(name));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -83,6 +84,22 @@ struct PacketMemory {
             pixels[i] = all[i];
         }
     }
+};
+
+/// Equations of a packet's runs, as AttributesCtx takes them.
+struct Equations {
+    explicit Equations(int attributes)
+        : rows(std::size_t{3} * (static_cast<std::size_t>(attributes) + 1) * kAttributeStride) {}
+    /// Equation e of run r.
+    void set(int e, int r, const std::array<float, 3>& origin_dx_dy) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t row = 3 * static_cast<std::size_t>(e) + c;
+            rows[row * kAttributeStride + static_cast<std::size_t>(r)] = origin_dx_dy[c];
+        }
+    }
+    [[nodiscard]] const float* data() const { return rows.data(); }
+
+    AlignedVector<float> rows;
 };
 
 /// What a stage may change. Everything else keeps its bits, fragments past the group too.

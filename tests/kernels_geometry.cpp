@@ -330,6 +330,23 @@ TEST_P(KernelTest, RasterizeOneByOneEqualsAllAtOnce) {
     }
 }
 
+// Depths alone: those that are left beside ids.
+TEST_P(KernelTest, RasterizeWithoutIds) {
+    for (unsigned seed = 0; seed < 1500; ++seed) {
+        Random random(seed);
+        const std::vector<TileTriangle> triangles = random_triangles(random, random.between(1, 12));
+        Tile got(random);
+        Tile want = got;
+        table().rasterize({triangles.data(), static_cast<int>(triangles.size()), got.depth.data(),
+                           nullptr, got.block_far.data(), nullptr});
+        want.run(table_reference(), triangles);
+        got.id = want.id;
+        got.drawn = want.drawn;
+        ASSERT_NO_FATAL_FAILURE(
+            expect_same(got, want, name("rasterize") + ", seed " + std::to_string(seed)));
+    }
+}
+
 // Bits instead of ids: what rasterize leaves of a triangle that is drawn alone, and its depths.
 TEST_P(KernelTest, CoverOfRandomTriangles) {
     for (unsigned seed = 0; seed < 3000; ++seed) {

@@ -74,19 +74,22 @@ TEST_P(KernelTest, FootprintsOfRandomRuns) {
         const int longest = random.chance(2) ? 9 : 200;
         for (int first = 0; first < packet.count;) {
             const int length = std::min(packet.count - first, random.between(1, longest));
-            runs.push_back({nullptr, first, length, random.between(-8192, 24576),
-                            random.between(-8192, 24576)});
+            runs.push_back(
+                {first, length, random.between(-8192, 24576), random.between(-8192, 24576)});
             first += length;
         }
-        std::vector<AttributePlane> planes(5 * runs.size());
-        for (AttributePlane& p : planes) {
-            p = {random.real(-2.0F, 2.0F), random.real(-0.1F, 0.1F), random.real(-0.1F, 0.1F)};
-            if (random.chance(20)) p = {0.0F, 0.0F, 0.0F};
-            if (random.chance(20)) p = {random.pick(kWild), random.pick(kWild), random.pick(kWild)};
+        Equations equations(4);
+        for (int k = 0; k < 5 * static_cast<int>(runs.size()); ++k) {
+            std::array plane{random.real(-2.0F, 2.0F), random.real(-0.1F, 0.1F),
+                             random.real(-0.1F, 0.1F)};
+            if (random.chance(20)) plane = {0.0F, 0.0F, 0.0F};
+            if (random.chance(20))
+                plane = {random.pick(kWild), random.pick(kWild), random.pick(kWild)};
+            equations.set(k % 5, k / 5, plane);
         }
-        for (std::size_t r = 0; r < runs.size(); ++r) runs[r].planes = planes.data() + 5 * r;
-        const PlaneFootprintCtx ctx{random_footprint(random),
-                                    {runs.data(), static_cast<int>(runs.size()), 4}};
+        const PlaneFootprintCtx ctx{
+            random_footprint(random),
+            {runs.data(), static_cast<int>(runs.size()), 4, equations.data()}};
         ASSERT_EQ(stage_difference(table(), &KernelTable::plane_footprint, packet, ctx,
                                    {.attributes = {6}}),
                   "")

@@ -124,11 +124,12 @@ struct Tile {
     std::vector<std::uint64_t> drawn;
 
     void run(const KernelTable& table, const std::vector<TileEntry>& entries,
-             const std::vector<SetupTriangle>& triangles, const DepthRule& rule) {
+             const std::vector<SetupTriangle>& triangles, const DepthRule& rule,
+             bool depth_alone = false) {
         drawn.assign(entries.size(), ~std::uint64_t{0});
         table.rasterize_tiny({entries.data(), static_cast<int>(entries.size()), triangles.data(),
-                              rule, 640, 128, 5, depth.data(), id.data(), block_far.data(),
-                              drawn.data()});
+                              rule, 640, 128, 5, depth.data(), depth_alone ? nullptr : id.data(),
+                              block_far.data(), depth_alone ? nullptr : drawn.data()});
     }
 };
 
@@ -173,13 +174,15 @@ TEST_P(KernelTest, RasterizeTinyOfRandomMasks) {
         Tile got;
         for (std::size_t i = 0; i < kTilePixels; ++i)
             got.depth[i] = static_cast<float>(random.between(0, 8)) * 0.125F;
-        Tile want = got;
+        Tile want = got, alone = got;
         got.run(table(), entries, triangles, rule);
+        alone.run(table(), entries, triangles, rule, true);
         want.run(table_reference(), entries, triangles, rule);
         const std::string where = name("rasterize_tiny") + ", seed " + std::to_string(seed);
         for (std::size_t i = 0; i < kTilePixels; ++i) {
             ASSERT_EQ(got.id[i], want.id[i]) << where << ", pixel " << i;
             ASSERT_TRUE(same_bits(got.depth[i], want.depth[i])) << where << ", pixel " << i;
+            ASSERT_TRUE(same_bits(alone.depth[i], want.depth[i])) << where << ", alone, " << i;
             ASSERT_GE(got.block_far[i / kBlockPixels], got.depth[i]) << where << ", pixel " << i;
         }
         ASSERT_EQ(got.drawn, want.drawn) << where;

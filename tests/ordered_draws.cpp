@@ -197,9 +197,14 @@ struct Extras {
     bool keeps = false, replaces_depth = false;
 };
 
+struct Painting {
+    std::vector<Codes> colors;
+    std::vector<float> depths;
+};
+
 /// Pixel by pixel in the order of submission.
-std::vector<Codes> painted(const std::vector<Layer>& layers, int width, int height,
-                           const Extras& extras = {}) {
+Painting painted(const std::vector<Layer>& layers, int width, int height,
+                 const Extras& extras = {}) {
     std::vector<Codes> colors(static_cast<std::size_t>(width * height), {51, 102, 153, 204});
     std::vector<float> depths(colors.size(), 1.0F);
     for (const Layer& layer : layers) {
@@ -222,7 +227,7 @@ std::vector<Codes> painted(const std::vector<Layer>& layers, int width, int heig
             }
         }
     }
-    return colors;
+    return {colors, depths};
 }
 
 std::string difference(const Framebuffer& frame, const std::vector<Codes>& want) {
@@ -246,7 +251,7 @@ TEST(OrderedDraws, RandomScenesAreWhatAPainterPaints) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         Random random(seed);
         const std::vector<Layer> layers = random_layers(random, kWidth, kHeight);
-        const std::vector<Codes> want = painted(layers, kWidth, kHeight);
+        const Painting want = painted(layers, kWidth, kHeight);
         const Scene scene = scene_of(layers, kWidth, kHeight);
         for (const IsaInfo& isa : instruction_sets()) {
             if (!isa.available) continue;
@@ -255,7 +260,13 @@ TEST(OrderedDraws, RandomScenesAreWhatAPainterPaints) {
                     {.threads = cap == 1 ? 3 : 1, .isa = std::string(isa.name), .memory_cap = cap});
                 Framebuffer frame(kWidth, kHeight);
                 renderer.render(scene, frame);
-                ASSERT_EQ(difference(frame, want), "")
+                ASSERT_EQ(difference(frame, want.colors), "")
+                    << "seed " << seed << ", " << isa.name << ", cap " << cap;
+                std::vector<float> depths(want.depths.size());
+                Framebuffer depth_frame(depths.data(), kWidth * std::ptrdiff_t{sizeof(float)},
+                                        kWidth, kHeight, PixelFormat::depth32f);
+                renderer.render(scene, depth_frame);
+                ASSERT_EQ(depths, want.depths)
                     << "seed " << seed << ", " << isa.name << ", cap " << cap;
             }
         }
@@ -344,7 +355,7 @@ void check_by_hand(const Extras& extras, bool quads) {
             for (Layer& layer : layers)
                 if (layer.depth_test != DepthTest::always) layer.depth_test = DepthTest::less;
         }
-        const std::vector<Codes> want = painted(layers, kWidth, kHeight, extras);
+        const std::vector<Codes> want = painted(layers, kWidth, kHeight, extras).colors;
         const Scene scene = scene_of(layers, kWidth, kHeight);
         for (const KernelTable* kernels : available_tables()) {
             const Framebuffer frame =

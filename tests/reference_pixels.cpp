@@ -194,14 +194,16 @@ TEST_P(ReferencePixels, DrawnBlocksAreThoseWhereAFragmentPassed) {
 
 TEST_P(ReferencePixels, AttributesAreDividedByTheInterpolatedOneOverW) {
     // Tile pixel (9, 2) is pixel (1, 12) from the reference pixel.
-    const std::array<AttributePlane, 3> planes{
-        {{1.0F, 1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.25F, 0.0F, 0.5F}}};
-    const burnish::Run run{planes.data(), 0, 1, -8, 10};
+    Equations equations(2);
+    equations.set(0, 0, {1.0F, 1.0F, 0.0F});
+    equations.set(1, 0, {0.0F, 1.0F, 0.0F});
+    equations.set(2, 0, {0.25F, 0.0F, 0.5F});
+    const burnish::Run run{0, 1, -8, 10};
     PacketMemory packet;
     packet.count = 1;
     packet.pixels[0] = static_cast<std::uint16_t>(tile_pixel(9, 2));
     Packet view = packet.view();
-    table().attributes(view, {&run, 1, 2});
+    table().attributes(view, {&run, 1, 2, equations.data()});
     EXPECT_EQ(packet.attribute(0)[0], 0.5F);    // 1 / (1 + 1)
     EXPECT_EQ(packet.attribute(1)[0], 3.125F);  // (0.25 + 6) / 2
 }

@@ -2,10 +2,14 @@
 // for schedules that change a picture. Build with BURNISH_THREADS=std for the sanitizer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <burnish/error.hpp>
+#include <chrono>
 #include <cstring>
+#include <map>
 #include <numeric>
+#include <string_view>
 #include <thread>
 
 #include "core/parallel.hpp"
@@ -128,6 +132,63 @@ TEST(Threads, ARefusedSceneLeavesTheRendererUsable) {
     }
 }
 
+std::map<std::string_view, StageCost> by_name(const FrameStats& stats) {
+    std::map<std::string_view, StageCost> stages;
+    for (const StageCost& stage : stats.stages) stages[stage.name] = stage;
+    return stages;
+}
+
+std::uint64_t fragments_of_tiles(const FrameStats& stats) {
+    std::uint64_t sum = 0;
+    for (const TileCost& tile : stats.tile_costs) sum += tile.fragments;
+    return sum;
+}
+
+// Looking at the clock changes no pixel; every moment of every worker is in one stage, so stages
+// add up to workers x frame and each kernel is a part of its stage; what is counted is what the
+// frame's counts say, however many workers shared it and however often the bins were flushed.
+TEST(Threads, AccountsAreComplete) {
+    const std::vector<Scene> scenes = small_scenes();
+    for (const Scene& scene : scenes) {
+        Framebuffer want(kWidth, kHeight), frame(kWidth, kHeight);
+        EXPECT_TRUE(Renderer({.threads = 1}).render(scene, want).stages.empty());
+        std::vector<std::uint64_t> alone;
+        for (const int threads : {1, 2, 5}) {
+            for (const std::size_t cap : {std::size_t{1} << 28, std::size_t{1}}) {
+                Renderer renderer({.threads = threads, .memory_cap = cap, .accounting = true});
+                renderer.render(scene, frame);
+                const auto start = std::chrono::steady_clock::now();
+                const FrameStats stats = renderer.render(scene, frame);
+                const std::chrono::duration<double, std::milli> time =
+                    std::chrono::steady_clock::now() - start;
+                ASSERT_TRUE(same(frame, want)) << threads << " threads";
+                auto stages = by_name(stats);
+                double sum = 0.0;
+                std::vector<std::uint64_t> counts;
+                for (const StageCost& stage : stats.stages) {
+                    sum += stage.ms;
+                    if (stage.name != "bin") counts.push_back(stage.items);  // binned again
+                }
+                EXPECT_LE(sum, threads * time.count());
+                EXPECT_GE(sum, 0.5 * threads * time.count());
+                for (const KernelCost& kernel : stats.kernels) stages[kernel.stage].ms -= kernel.ms;
+                stages.erase("waiting");
+                for (const auto& [name, stage] : stages) EXPECT_GE(stage.ms, -1e-9) << name;
+                EXPECT_EQ(stages["prepare"].items, scene.objects.size());
+                EXPECT_EQ(stages["packets"].items, stats.shaded_pixels);
+                EXPECT_EQ(fragments_of_tiles(stats), stats.shaded_pixels);
+                EXPECT_EQ(stats.tile_costs.size(), 6U);
+                if (cap == 1) continue;
+                EXPECT_EQ(stages["setup"].items, stats.triangles);
+                EXPECT_EQ(stages["bin"].items, stats.binned_triangles);
+                EXPECT_EQ(stages["resolve"].items, std::uint64_t{kWidth * kHeight});
+                if (alone.empty()) alone = counts;
+                EXPECT_EQ(counts, alone) << threads << " threads";
+            }
+        }
+    }
+}
+
 TEST(WorkerPool, CallsEveryWorkerOnce) {
     for (int size = 1; size <= 8; ++size) {
         WorkerPool pool(size);
@@ -152,6 +213,52 @@ TEST(WorkerPool, HandsOutEveryIndexOnce) {
                 for (const auto& n : taken) ASSERT_EQ(n, 1) << count << " by " << grain;
             }
         }
+    }
+}
+
+// Heavy pieces go first, the heaviest in front; the rest stays in its order.
+TEST(WorkOrder, HeavyPiecesComeFirst) {
+    WorkOrder order;
+    std::vector<std::uint32_t> weight(100, 1);
+    weight[40] = 50;
+    weight[70] = 60;
+    order_work(weight, 2, order);  // of 208: more than 208 / 32 is heavy
+    ASSERT_EQ(order.shared, 2U);
+    EXPECT_EQ(order.pieces[0], 70U);
+    EXPECT_EQ(order.pieces[1], 40U);
+    EXPECT_TRUE(std::is_sorted(order.pieces.begin() + 2, order.pieces.end()));
+    order_work(weight, 1, order);  // one worker does all of them anyway
+    EXPECT_EQ(order.shared, 0U);
+    EXPECT_TRUE(std::is_sorted(order.pieces.begin(), order.pieces.end()));
+    order_work({}, 8, order);
+    EXPECT_TRUE(order.pieces.empty());
+}
+
+// Two workers and five pieces. To whoever is free: 1 1, 1 1, then 4 alone: 2 + 4. The long one
+// first: 4 beside 1 + 1 + 1 + 1. In halves {1, 1} and {1, 1, 4}: after 2 one of them
+// begins the 4.
+TEST(WorkOrder, FinishingTimesOfASmallSchedule) {
+    const std::vector<double> cost{1.0, 1.0, 1.0, 1.0, 4.0};
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 5}, 2), 6.0);
+    EXPECT_EQ(finishing_time(cost, {{4, 0, 1, 2, 3}, 1}, 2), 4.0);
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0}, 2), 6.0);
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0}, 1), 8.0);
+    EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0}, 64), 4.0);
+    EXPECT_EQ(finishing_time({}, {}, 3), 0.0);
+}
+
+TEST(WorkOrder, EveryPieceIsHandedOutOnce) {
+    WorkOrder order;
+    std::vector<std::uint32_t> weight(1000);
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        weight[i] = static_cast<std::uint32_t>(i * i % 997 * (i % 7 == 0 ? 100 : 1));
+    for (const int size : {1, 2, 5, 8}) {
+        WorkerPool pool(size);
+        order_work(weight, size, order);
+        EXPECT_EQ(order.shared > 0, size > 2);
+        std::vector<std::atomic<int>> taken(weight.size());
+        for_each_piece(pool, order, [&](std::size_t i, int) { ++taken[i]; });
+        for (const auto& n : taken) ASSERT_EQ(n, 1) << size << " workers";
     }
 }
 

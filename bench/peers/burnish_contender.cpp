@@ -21,22 +21,13 @@ class BurnishContender : public Contender {
         return fmt::format("burnish, {}", m_renderer.isa());
     }
 
-    void draw() override {
-        if (m_peer.shading == Shading::depth) {
-            m_renderer.render(m_peer.scene, m_frame, Aov::depth);
-        } else {
-            m_renderer.render(m_peer.scene, m_frame);
-        }
-    }
+    void draw() override { m_renderer.render(m_peer.scene, m_frame); }
 
     [[nodiscard]] FrameBytes frame() override {
         const auto pixels =
             static_cast<std::size_t>(m_frame.width()) * static_cast<std::size_t>(m_frame.height());
-        // Of a frame of floats the first channel: with depths all three are the same.
-        const std::size_t size = pixel_size(m_frame.format());
-        FrameBytes bytes(4 * pixels);
-        for (std::size_t i = 0; i < pixels; ++i)
-            std::memcpy(bytes.data() + 4 * i, m_frame.pixels() + size * i, 4);
+        FrameBytes bytes(pixel_size(m_frame.format()) * pixels);
+        std::memcpy(bytes.data(), m_frame.pixels(), bytes.size());
         return bytes;
     }
 

@@ -160,7 +160,7 @@ void add_flat(PeerScene& peer, const MeshData& data) {
 void add_depth(PeerScene& peer, const MeshData& data) {
     add_flat(peer, data);
     peer.shading = Shading::depth;
-    peer.scene.format = PixelFormat::rgba32f;
+    peer.scene.format = PixelFormat::depth32f;
 }
 
 /// Eight layers over the whole frame, back to front.

@@ -20,6 +20,7 @@ struct Options {
     float intensity = 1.0F;
     double seconds = 0.5;
     int frames = 7;
+    bool wait = false;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -35,6 +36,10 @@ void run(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < 3 || seconds_since(start) < 0.2 * options.seconds; ++i) contender->draw();
     fmt::print("renderer {}\n", contender->description());
+    if (options.wait) {
+        std::fflush(stdout);
+        std::getchar();
+    }
     const auto first = std::chrono::steady_clock::now();
     for (int i = 0; i < options.frames || seconds_since(first) < options.seconds; ++i) {
         const auto frame = std::chrono::steady_clock::now();
@@ -63,6 +68,7 @@ int main(int argc, char** argv) {
     app.add_option("--intensity", options.intensity, "of the light");
     app.add_option("--seconds", options.seconds, "to time, at least");
     app.add_option("--frames", options.frames, "to time, at least");
+    app.add_flag("--wait", options.wait, "for a byte on standard input before frames are timed");
     app.add_option("--picture", options.picture, "file for the last frame's bytes");
     CLI11_PARSE(app, argc, argv);
     try {

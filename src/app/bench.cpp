@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <burnish/error.hpp>
 #include <chrono>
 #include <cmath>
 #include <vector>
 
+#include "app/balance.hpp"
 #include "app/picture.hpp"
 #include "app/stats.hpp"
 #include "app/verbs.hpp"
@@ -31,6 +33,8 @@ struct Times {
     }
 };
 
+constexpr int kWarmUp = 2;
+
 struct Measurement {
     std::vector<double> frame, geometry, tiles;
     FrameStats last;
@@ -38,7 +42,6 @@ struct Measurement {
 
 Measurement measure(Renderer& renderer, const Scene& scene, Framebuffer& frame,
                     const BenchOptions& options) {
-    constexpr int kWarmUp = 2;
     Measurement result;
     for (int i = 0; i < kWarmUp + options.frames; ++i) {
         const auto start = std::chrono::steady_clock::now();
@@ -58,18 +61,56 @@ double rate(double items, double ms) {
     return ms > 0.0 ? items / (1000.0 * ms) : 0.0;
 }
 
+/// Frames with their accounts, after those that warm up.
+std::vector<FrameStats> accounts(const BenchOptions& options, int threads, int frames,
+                                 const Scene& scene, Framebuffer& frame) {
+    PictureOptions picture = options.picture;
+    picture.threads = threads;
+    Renderer renderer = make_renderer(picture, 1, true);
+    std::vector<FrameStats> result;
+    for (int i = 0; i < kWarmUp + frames; ++i) {
+        FrameStats stats = draw(renderer, scene, frame, options.shown);
+        if (i >= kWarmUp) result.push_back(std::move(stats));
+    }
+    return result;
+}
+
+/// All stages, the waiting too: what the workers spent together.
+double workers_ms(const FrameStats& stats) {
+    double sum = 0.0;
+    for (const StageCost& stage : stats.stages) sum += stage.ms;
+    return sum;
+}
+
+void report_balance(const BenchOptions& options, const Scene& scene, Framebuffer& frame) {
+    if (scene.machine.double_precision)
+        throw Error(ErrorCode::bad_option,
+                    "--balance with profile double, expected one of the machines");
+    const Balance balance = simulate_balance(accounts(options, 1, options.frames, scene, frame));
+    if (options.json)
+        fmt::print("{}\n", balance_json(balance));
+    else
+        fmt::print("{}", balance_text(balance));
+}
+
 }  // namespace
 
 void run(const BenchOptions& options) {
     Renderer renderer = make_renderer(options.picture);
     const Scene scene = load_picture(options.picture);
     Framebuffer frame(scene.width, scene.height, scene.format);
-    const Measurement measured = measure(renderer, scene, frame, options);
+    if (options.balance) return report_balance(options, scene, frame);
+    Measurement measured = measure(renderer, scene, frame, options);
     const Times times(measured.frame);
     const double geometry = Times(measured.geometry).median();
     const double tiles = Times(measured.tiles).median();
     const double pixels = static_cast<double>(scene.width) * scene.height;
     const auto shaded = static_cast<double>(measured.last.shaded_pixels);
+    double last_ms = measured.frame.back();
+    if ((options.json || options.picture.verbose) && !scene.machine.double_precision) {
+        measured.last = accounts(options, renderer.threads(), 1, scene, frame).front();
+        last_ms = workers_ms(measured.last) / renderer.threads();
+    }
     if (options.json) {
         fmt::print(
             "{{\"input\": {}, \"width\": {}, \"height\": {}, \"machine\": {}, \"isa\": \"{}\", "
@@ -81,7 +122,7 @@ void run(const BenchOptions& options) {
             json_string(scene.machine.name), renderer.isa(), renderer.threads(), options.frames,
             times.median(), times.sorted.front(), times.sorted.back(), times.quantile(0.95),
             geometry, tiles, rate(pixels, times.median()), rate(shaded, times.median()),
-            stats_json(measured.last, renderer, measured.frame.back()));
+            stats_json(measured.last, renderer, last_ms));
         return;
     }
     fmt::print(
@@ -93,8 +134,7 @@ void run(const BenchOptions& options) {
         renderer.isa(), renderer.threads(), renderer.threads() == 1 ? "" : "s", options.frames,
         times.median(), times.sorted.front(), times.sorted.back(), times.quantile(0.95), geometry,
         tiles, rate(pixels, times.median()), rate(shaded, times.median()));
-    if (options.picture.verbose)
-        fmt::print("{}", stats_text(measured.last, renderer, measured.frame.back()));
+    if (options.picture.verbose) fmt::print("{}", stats_text(measured.last, renderer, last_ms));
 }
 
 }  // namespace burnish::app

@@ -304,6 +304,8 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
     verb.add_option("--frames", options.frames, "Frames to time, after two that are not")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
+    verb.add_flag("--balance", options.balance,
+                  "Instead of the times: how evenly tiles would keep 1 .. 64 workers busy");
     verb.add_flag("--json", options.json, "Print JSON");
     add_aov(verb, options.shown);
 }

@@ -64,6 +64,7 @@ struct BenchOptions {
     PictureOptions picture;
     int frames = 50;
     std::optional<Shown> shown;  ///< --aov
+    bool balance = false;        ///< instead of times
     bool json = false;
 };
 

@@ -13,7 +13,9 @@ Scene load_picture(const PictureOptions& options);
 
 /// Throws Error{bad_option} for an ISA that is not there, before any file is read.
 /// `double_samples`: as in RendererOptions.
-Renderer make_renderer(const PictureOptions& options, int double_samples = 1);
+/// `accounting`: as well.
+Renderer make_renderer(const PictureOptions& options, int double_samples = 1,
+                       bool accounting = false);
 
 /// Renders; what the scene cannot do counts as bad input, not as wrong usage.
 FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,

@@ -103,7 +103,8 @@ void report(const RenderOptions& options, const std::string& name, const Framebu
 void run(const RenderOptions& options) {
     const std::string pattern = output_pattern(options);
     numbered_name(pattern, 0);
-    Renderer renderer = make_renderer(options.picture, options.samples_side * options.samples_side);
+    Renderer renderer = make_renderer(options.picture, options.samples_side * options.samples_side,
+                                      options.stats != StatsFormat::none);
     const Scene scene = load_picture(options.picture);
     const int side = enlargement(options, scene);
     const int frames = options.turntable > 0 ? options.turntable : 1;

@@ -11,6 +11,9 @@ std::string stats_json(const FrameStats& stats, const Renderer& renderer, double
 /// Lines of "name value".
 std::string stats_text(const FrameStats& stats, const Renderer& renderer, double frame_ms);
 
+/// A line for each stage, if the frame was accounted for.
+std::string stages_text(const FrameStats& stats);
+
 /// `text` between double quotes, with whatever JSON wants escaped.
 std::string json_string(const std::string& text);
 

@@ -28,6 +28,8 @@ std::array<double, 4> pixel_of(const Framebuffer& frame, int x, int y) {
             return channels_at<std::uint16_t>(frame, x, y);
         case PixelFormat::rgba32f:
             return channels_at<float>(frame, x, y);
+        case PixelFormat::depth32f:  // refused by trace_pixel
+            break;
     }
     return {};
 }

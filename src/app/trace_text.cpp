@@ -270,6 +270,8 @@ const char* format_name(PixelFormat format) {
             return "rgba16";
         case PixelFormat::rgba32f:
             return "rgba32f";
+        case PixelFormat::depth32f:
+            return "depth32f";
     }
     return "";
 }

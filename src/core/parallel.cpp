@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/frame_account.hpp"
+
 #ifdef BURNISH_THREADS_TBB
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -41,6 +43,44 @@ class FloatEnvironment {
   private:
     std::fenv_t m_saved;
 };
+
+/// What one worker takes from.
+struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
+
+    template <class Body>
+    void work_off(std::size_t grain, const Body& body) {
+        for (;;) {
+            const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
+            if (begin >= end) return;
+            for (std::size_t i = begin; i < std::min(end, begin + grain); ++i) body(i);
+        }
+    }
+};
+
+/// The first `shared` of `count` to whoever is free, the rest as for_each_index says.
+void hand_out(WorkerPool& pool, std::size_t shared, std::size_t count, std::size_t grain,
+              const std::function<void(std::size_t, int)>& body) {
+    const auto workers = static_cast<std::size_t>(pool.size());
+    Share first;
+    first.end = shared;
+    std::vector<Share> shares(workers);
+    const auto begin_of = [&](std::size_t share) {
+        const std::size_t begin = (count - shared) * share / workers;
+        return std::min(count, shared + (begin + grain - 1) / grain * grain);
+    };
+    for (std::size_t i = 0; i < workers; ++i) {
+        shares[i].next = begin_of(i);
+        shares[i].end = i + 1 < workers ? begin_of(i + 1) : count;
+    }
+    pool.run([&](int worker) {
+        const auto take = [&](std::size_t i) { body(i, worker); };
+        if (shared > 0) first.work_off(1, take);
+        for (std::size_t k = 0; k < workers; ++k)
+            shares[(static_cast<std::size_t>(worker) + k) % workers].work_off(grain, take);
+    });
+}
 
 int checked_size(int workers) {
     if (workers < 0 || workers > kMaxWorkers) {
@@ -166,6 +206,22 @@ WorkerPool::WorkerPool(WorkerPool&&) noexcept = default;
 WorkerPool& WorkerPool::operator=(WorkerPool&&) noexcept = default;
 
 void WorkerPool::run(const std::function<void(int)>& body) {
+    if (m_account == nullptr) return run_workers(body);
+    StageClock& first = m_account->clock(0);
+    const StageClock::Place stage = first.place();
+    run_workers([&](int worker) {
+        if (worker > 0) {
+            const ClockLoan loan(m_account->clock(worker), stage);
+            body(worker);
+        } else {
+            body(0);
+            first.enter(StageClock::place(FrameStage::waiting));  // for the others
+        }
+    });
+    first.enter(stage);
+}
+
+void WorkerPool::run_workers(const std::function<void(int)>& body) {
     if (m_size == 1) {
         const FloatEnvironment environment;
         body(0);
@@ -176,14 +232,13 @@ void WorkerPool::run(const std::function<void(int)>& body) {
 
 void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, int)>& body) {
-    alignas(64) std::atomic<std::size_t> next{0};
-    pool.run([&](int worker) {
-        for (;;) {
-            const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-            if (begin >= count) return;
-            for (std::size_t i = begin; i < std::min(count, begin + grain); ++i) body(i, worker);
-        }
-    });
+    hand_out(pool, 0, count, grain, body);
+}
+
+void for_each_piece(WorkerPool& pool, const WorkOrder& order,
+                    const std::function<void(std::size_t, int)>& body) {
+    hand_out(pool, order.shared, order.pieces.size(), 1,
+             [&](std::size_t i, int worker) { body(order.pieces[i], worker); });
 }
 
 }  // namespace burnish

@@ -48,16 +48,21 @@ std::int8_t vertex_value(const Varying& varying) {
     }
 }
 
-/// The values of `list` that belong to light `light`, for the kernel; empty if there are none.
-std::vector<std::int8_t> vertex_values(std::span<const Varying> list, int light) {
-    std::vector<std::int8_t> values(list.size(), VertexValue::none);
-    bool any = false;
-    for (std::size_t k = 0; k < list.size(); ++k) {
-        if (list[k].light != light) continue;
-        values[k] = vertex_value(list[k]);
-        any |= values[k] != VertexValue::none;
-    }
-    if (!any) values.clear();
+/// What the vertices' rows get of light `light`, with the first light what they bring themselves,
+/// for the kernel; empty if that is nothing. A row ends with a whole group of four, whose rest
+/// repeats the last value.
+std::vector<std::int8_t> vertex_values(int own_attributes, std::span<const Varying> list,
+                                       int light) {
+    std::vector<std::int8_t> values;
+    for (int k = 0; k < own_attributes; ++k)
+        values.push_back(light == 0 ? static_cast<std::int8_t>(VertexValue::uv + k)
+                                    : VertexValue::none);
+    for (const Varying& varying : list)
+        values.push_back(varying.light == light ? vertex_value(varying) : VertexValue::none);
+    const bool any = std::any_of(values.begin(), values.end(),
+                                 [](std::int8_t v) { return v != VertexValue::none; });
+    if (!any) return {};
+    values.resize((values.size() + 3) / 4 * 4, values.back());
     return values;
 }
 
@@ -110,19 +115,17 @@ void make_orthonormal(glm::vec3& t, glm::vec3& b, glm::vec3& n) {
     b = dot(c, b) < 0.0F ? -c : c;
 }
 
-glm::vec3 bitangent(const VertexFrame& v) {
-    return cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
-}
-
-void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   std::span<const LightInputs> lights, const KernelTable& kernels,
-                   WorkerPool& pool, std::vector<float>& out) {
+void mesh_rows(std::span<const VertexFrame> vertices, int own_attributes,
+               std::span<const Varying> list, std::span<const LightInputs> lights,
+               const KernelTable& kernels, WorkerPool& pool, VertexRows& out) {
     static_assert(sizeof(VertexFrame) == LightVerticesCtx::kFrameFloats * sizeof(float));
+    static_assert(VertexValue::frame == VertexValue::uv + kUvAttributes);
     constexpr std::size_t kBatch = 1024;
-    const std::size_t stride = list.size();
-    out.resize(vertices.size() * stride);
+    out.resize(vertices.size(),
+               (static_cast<std::size_t>(own_attributes) + list.size() + 3) / 4 * 4);
     for (std::size_t light = 0; light < lights.size(); ++light) {
-        const std::vector<std::int8_t> values = vertex_values(list, static_cast<int>(light));
+        const std::vector<std::int8_t> values =
+            vertex_values(own_attributes, list, static_cast<int>(light));
         if (values.empty()) continue;
         const LightVerticesCtx whole = light_context(lights[light], values);
         const std::size_t batches = (vertices.size() + kBatch - 1) / kBatch;
@@ -131,18 +134,18 @@ void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varyin
             LightVerticesCtx ctx = whole;
             ctx.frames = &vertices[first].position.x;
             ctx.count = static_cast<int>(std::min(kBatch, vertices.size() - first));
-            ctx.out = out.data() + first * stride;
+            ctx.out = out.row(first);
             kernels.light_vertices(ctx);
         });
     }
 }
 
-void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
-                  NumberModel numbers, std::vector<float>& out) {
-    out.clear();
-    out.reserve(vertices.size() * list.size());
-    for (const RawVertex& v : vertices) {
-        for (const Varying& varying : list) out.push_back(value_of(v, varying, numbers));
+void raw_rows(std::span<const RawVertex> vertices, std::span<const Varying> list,
+              NumberModel numbers, VertexRows& out) {
+    out.resize(vertices.size(), list.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        float* to = out.row(v);
+        for (const Varying& varying : list) *to++ = value_of(vertices[v], varying, numbers);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "core/parallel.hpp"
 #include "kernels/kernel_table.hpp"
 
@@ -60,20 +61,39 @@ struct LightInputs {
     VectorRules rules = {};
 };
 
-/// Values of `list`, which names nothing that only raw vertices have, for every vertex, vertex by
-/// vertex. Vectors are unit length at the vertex.
-void mesh_varyings(std::span<const VertexFrame> vertices, std::span<const Varying> list,
-                   std::span<const LightInputs> lights, const KernelTable& kernels,
-                   WorkerPool& pool, std::vector<float>& out);
-/// Colours are clamped to [0, 1]; nine-bit machines drop what lies below
-/// 2^-22.
-void raw_varyings(std::span<const RawVertex> vertices, std::span<const Varying> list,
-                  NumberModel numbers, std::vector<float>& out);
+/// What the vertices of a draw hand to the interpolators, vertex by vertex.
+struct VertexRows {
+    static constexpr std::size_t kSlack = 3;  ///< kernels read past the last row
+
+    AlignedVector<float> values;  ///< `stride` for each vertex, and kSlack more
+    std::size_t stride = 0;       ///< at least the attributes
+
+    void resize(std::size_t vertices, std::size_t row) {
+        stride = row;
+        values.resize(vertices * row + kSlack);
+    }
+    [[nodiscard]] float* row(std::size_t vertex) { return values.data() + vertex * stride; }
+    [[nodiscard]] const float* row(std::size_t vertex) const {
+        return values.data() + vertex * stride;
+    }
+};
+
+/// Attributes that a mesh's vertices bring themselves: uv and, where light meets the tangent frame
+/// at every pixel, T, B, N and the position.
+inline constexpr int kUvAttributes = 2;
+inline constexpr int kFrameAttributes = 12;
+
+/// The first `own_attributes` (0, kUvAttributes, or with kFrameAttributes) that vertices bring
+/// themselves, v growing downward, and the values of `list`, which names nothing that only raw
+/// vertices have. Vectors of lights are unit length at the vertex.
+void mesh_rows(std::span<const VertexFrame> vertices, int own_attributes,
+               std::span<const Varying> list, std::span<const LightInputs> lights,
+               const KernelTable& kernels, WorkerPool& pool, VertexRows& out);
+/// Values of `list`. Colours are clamped to [0, 1]; nine-bit machines drop what lies below 2^-22.
+void raw_rows(std::span<const RawVertex> vertices, std::span<const Varying> list,
+              NumberModel numbers, VertexRows& out);
 
 /// The frame made orthonormal as LightingCtx has it; vectors without length stay so.
 void make_orthonormal(glm::vec3& t, glm::vec3& b, glm::vec3& n);
-
-/// bitangent = w * cross(normal, tangent.xyz)
-glm::vec3 bitangent(const VertexFrame& v);
 
 }  // namespace burnish

@@ -9,7 +9,8 @@ namespace burnish {
 namespace {
 
 std::ptrdiff_t channel_size(PixelFormat format) {
-    return static_cast<std::ptrdiff_t>(pixel_size(format) / 4);
+    const std::size_t channels = format == PixelFormat::depth32f ? 1 : 4;
+    return static_cast<std::ptrdiff_t>(pixel_size(format) / channels);
 }
 
 void check_size(int width, int height) {
@@ -26,6 +27,7 @@ void check_size(int width, int height) {
 std::size_t pixel_size(PixelFormat format) noexcept {
     switch (format) {
         case PixelFormat::rgba8:
+        case PixelFormat::depth32f:
             return 4;
         case PixelFormat::rgba16:
             return 8;

@@ -16,9 +16,13 @@ struct EncodedPixel {
     std::byte bytes[16];
 };
 
-/// A colour as the frame stores it, each channel to the nearest code.
+/// A colour as the frame stores it, each channel to the nearest code; as a depth red alone.
 EncodedPixel encode_pixel(const glm::vec4& color, PixelFormat format) {
     EncodedPixel pixel{};
+    if (format == PixelFormat::depth32f) {
+        std::memcpy(pixel.bytes, &color.r, sizeof color.r);
+        return pixel;
+    }
     for (int c = 0; c < 4; ++c) {
         const float x = color[c] > 0.0F ? std::min(color[c], 1.0F) : 0.0F;
         const auto code = [&](float one) {
@@ -64,12 +68,32 @@ template <class F>
 void for_each_row(const Framebuffer& frame, std::int32_t left, std::int32_t top, F&& f) {
     switch (frame.format()) {
         case PixelFormat::rgba8:
+        case PixelFormat::depth32f:
             return for_each_row<4>(frame.width(), frame.height(), left, top, f);
         case PixelFormat::rgba16:
             return for_each_row<8>(frame.width(), frame.height(), left, top, f);
         case PixelFormat::rgba32f:
             return for_each_row<16>(frame.width(), frame.height(), left, top, f);
     }
+}
+
+/// Depths as opaque grey.
+template <class Channel, class Code>
+void write_greys(const float* depths, std::byte* pixels, Channel one, Code&& code) {
+    for (int i = 0; i < kTilePixels; ++i) {
+        const auto grey = static_cast<Channel>(code(depths[i]));
+        const Channel pixel[4] = {grey, grey, grey, one};
+        std::memcpy(pixels + static_cast<std::size_t>(i) * sizeof pixel, pixel, sizeof pixel);
+    }
+}
+
+void resolve_pixels(const std::byte* pixels, Framebuffer& frame, std::int32_t left,
+                    std::int32_t top) {
+    for_each_row(frame, left, top,
+                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
+                     stream_copy(frame.row(y) + in_row, pixels + in_tile, n);
+                 });
+    stream_fence();
 }
 
 }  // namespace
@@ -102,11 +126,31 @@ void TileImage::load(const Framebuffer& frame, std::int32_t left, std::int32_t t
 }
 
 void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const {
-    for_each_row(frame, left, top,
-                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
-                     stream_copy(frame.row(y) + in_row, m_pixels.data() + in_tile, n);
-                 });
-    stream_fence();
+    resolve_pixels(m_pixels.data(), frame, left, top);
+}
+
+void TileImage::resolve_depths(const float* depths, Framebuffer& frame, std::int32_t left,
+                               std::int32_t top) {
+    const auto nearest = [](float one) {
+        return [one](float depth) {
+            const float x = depth > 0.0F ? std::min(depth, 1.0F) : 0.0F;
+            return static_cast<std::int32_t>(x * one + 0.5F);
+        };
+    };
+    switch (m_format) {
+        case PixelFormat::depth32f:
+            return resolve_pixels(reinterpret_cast<const std::byte*>(depths), frame, left, top);
+        case PixelFormat::rgba8:
+            write_greys<std::uint8_t>(depths, m_pixels.data(), 255, nearest(255.0F));
+            break;
+        case PixelFormat::rgba16:
+            write_greys<std::uint16_t>(depths, m_pixels.data(), 65535, nearest(65535.0F));
+            break;
+        case PixelFormat::rgba32f:
+            write_greys<float>(depths, m_pixels.data(), 1.0F, [](float depth) { return depth; });
+            break;
+    }
+    resolve(frame, left, top);
 }
 
 void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const {

@@ -22,6 +22,10 @@ class TileImage {
     /// An empty tile: background straight to the frame.
     void resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
     void resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
+    /// The tile's depths (kTilePixels) in place of its pixels; to a frame of colours in r, g and b
+    /// with alpha 1.
+    void resolve_depths(const float* depths, Framebuffer& frame, std::int32_t left,
+                        std::int32_t top);
 
     [[nodiscard]] std::byte* pixels() { return m_pixels.data(); }
     [[nodiscard]] const std::byte* pixels() const { return m_pixels.data(); }

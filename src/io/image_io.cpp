@@ -114,7 +114,8 @@ Source describe(const Framebuffer& frame) {
     const OIIO::TypeDesc type = frame.format() == PixelFormat::rgba8    ? OIIO::TypeUInt8
                                 : frame.format() == PixelFormat::rgba16 ? OIIO::TypeUInt16
                                                                         : OIIO::TypeFloat;
-    return {frame.pixels(), frame.pitch(), {frame.width(), frame.height(), 4, type}};
+    const int channels = frame.format() == PixelFormat::depth32f ? 1 : 4;
+    return {frame.pixels(), frame.pitch(), {frame.width(), frame.height(), channels, type}};
 }
 
 Source describe(const Image8& image) {
@@ -150,7 +151,7 @@ void encode(OIIO::ImageOutput& output, const Source& source, const std::string& 
     if (std::strcmp(output.format_name(), "png") != 0)
         spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (!output.open(file_name, spec)) fail_write(shown_name, output.geterror());
-    const auto texel_size = static_cast<OIIO::stride_t>(4 * spec.format.size());
+    const auto texel_size = static_cast<OIIO::stride_t>(spec.pixel_bytes());
     const bool written = output.write_image(spec.format, source.pixels, texel_size, source.pitch);
     const std::string reason = written ? std::string() : output.geterror();
     const bool closed = output.close();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/stage_clock.hpp"
 #include "geometry/clip.hpp"
 
 namespace burnish {
@@ -49,8 +50,18 @@ std::span<const TileEntry> Chunk::tile(std::int32_t x, std::int32_t y) const {
     return std::span(m_entries).subspan(m_first[at], m_first[at + 1] - m_first[at]);
 }
 
+void Chunk::add_lengths(std::span<std::uint32_t> lengths, std::size_t columns) const {
+    std::size_t entry = 0;
+    for (std::int32_t y = m_y0; y < m_y0 + m_height; ++y) {
+        std::uint32_t* row = lengths.data() + static_cast<std::size_t>(y) * columns;
+        for (std::int32_t x = m_x0; x < m_x0 + m_width; ++x, ++entry)
+            row[x] += m_first[entry + 1] - m_first[entry];
+    }
+}
+
 void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
                  const KernelTable& kernels) {
+    const StageScope setup(FrameStage::setup, last - first);
     m_count = 0;
     m_parts.clear();
     m_bounds = {32767, 32767, -1, -1};
@@ -73,6 +84,7 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
         i += static_cast<std::size_t>(counts.taken);
         if (i < last) add_clipped(source, i, ctx, kernels);
     }
+    const StageScope bin(FrameStage::bin, m_count);
     sort_into_tiles();
 }
 

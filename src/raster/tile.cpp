@@ -31,7 +31,6 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
     m_frame = frame;
     m_triangles.clear();
     m_drawn.clear();
-    std::fill(m_id.begin(), m_id.end(), kNoTriangle);
     if (depth == nullptr) {
         std::fill(m_depth.begin(), m_depth.end(), 1.0F);
         std::fill(m_block_far.begin(), m_block_far.end(), 1.0F);
@@ -46,6 +45,18 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
+    if (!shows_anything()) std::fill(m_id.begin(), m_id.end(), kNoTriangle);
+    draw_entries(chunk, rules, kernels, m_id.data());
+}
+
+void TileVisibility::draw_depths(const Chunk& chunk, std::span<const DepthRule> rules,
+                                 const KernelTable& kernels) {
+    draw_entries(chunk, rules, kernels, nullptr);
+}
+
+/// `id`: the visibility buffer, or null for the depths alone.
+void TileVisibility::draw_entries(const Chunk& chunk, std::span<const DepthRule> rules,
+                                  const KernelTable& kernels, std::uint32_t* id) {
     const std::span<const TileEntry> entries = chunk.tile(m_tile_x, m_tile_y);
     const auto is_tiny = [](const TileEntry& entry) { return entry.covered != 0; };
     for (auto first = entries.begin(); first != entries.end();) {
@@ -53,36 +64,49 @@ void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
         const auto last = tiny ? std::find_if_not(first, entries.end(), is_tiny)
                                : std::find_if(first, entries.end(), is_tiny);
         if (tiny) {
-            draw_tiny(chunk, {first, last}, rules, kernels);
+            draw_tiny(chunk, {first, last}, rules, kernels, id);
         } else {
-            draw_others(chunk, {first, last}, rules, kernels);
+            draw_others(chunk, {first, last}, rules, kernels, id);
         }
         first = last;
     }
 }
 
 void TileVisibility::draw_tiny(const Chunk& chunk, std::span<const TileEntry> entries,
-                               std::span<const DepthRule> rules, const KernelTable& kernels) {
+                               std::span<const DepthRule> rules, const KernelTable& kernels,
+                               std::uint32_t* id) {
     const SetupTriangle* const triangles = chunk.triangles().data();
-    const std::size_t first = m_triangles.size();
-    m_triangles.resize(first + entries.size());
-    m_drawn.resize(first + entries.size());
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        m_triangles[first + i] = triangles + entries[i].triangle;
-    kernels.rasterize_tiny({entries.data(), static_cast<int>(entries.size()), triangles,
-                            rules[m_triangles[first]->draw], left(), top(),
-                            static_cast<std::uint32_t>(first), m_depth.data(), m_id.data(),
-                            m_block_far.data(), m_drawn.data() + first});
+    const DepthRule& rule = rules[triangles[entries.front().triangle].draw];
+    RasterizeTinyCtx ctx{entries.data(),
+                         static_cast<int>(entries.size()),
+                         triangles,
+                         rule,
+                         left(),
+                         top(),
+                         0,
+                         m_depth.data(),
+                         id,
+                         m_block_far.data(),
+                         nullptr};
+    if (id != nullptr) {
+        const std::size_t first = m_triangles.size();
+        for (const TileEntry& entry : entries) m_triangles.push_back(triangles + entry.triangle);
+        m_drawn.resize(m_triangles.size());
+        ctx.first_id = static_cast<std::uint32_t>(first);
+        ctx.drawn = m_drawn.data() + first;
+    }
+    kernels.rasterize_tiny(ctx);
 }
 
 void TileVisibility::draw_others(const Chunk& chunk, std::span<const TileEntry> entries,
-                                 std::span<const DepthRule> rules, const KernelTable& kernels) {
+                                 std::span<const DepthRule> rules, const KernelTable& kernels,
+                                 std::uint32_t* id) {
     TileTriangle batch[kBatch];
     std::uint64_t drawn[kBatch];
-    RasterizeCtx ctx{batch, 0, m_depth.data(), m_id.data(), m_block_far.data(), drawn};
+    RasterizeCtx ctx{batch, 0, m_depth.data(), id, m_block_far.data(), drawn};
     const auto flush = [&] {
         kernels.rasterize(ctx);
-        m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
+        if (id != nullptr) m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
         ctx.count = 0;
     };
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -96,7 +120,7 @@ void TileVisibility::draw_others(const Chunk& chunk, std::span<const TileEntry> 
         const DepthRule& rule = rules[triangle.draw];
         seen.id = static_cast<std::uint32_t>(m_triangles.size());
         set_rule(rule, seen);
-        m_triangles.push_back(&triangle);
+        if (id != nullptr) m_triangles.push_back(&triangle);
         if (++ctx.count == kBatch) flush();
     }
     if (ctx.count > 0) flush();
@@ -123,10 +147,8 @@ TileFragments TileVisibility::collect(const KernelTable& kernels) {
 }
 
 void TileVisibility::forget() {
-    if (!shows_anything()) return;
     m_triangles.clear();
     m_drawn.clear();
-    std::fill(m_id.begin(), m_id.end(), kNoTriangle);
 }
 
 bool TileVisibility::cover(const SetupTriangle& triangle, const DepthRule& rule,

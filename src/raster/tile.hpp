@@ -29,6 +29,9 @@ class TileVisibility {
 
     /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
     void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);
+    /// The same for the depths alone; shows nothing.
+    void draw_depths(const Chunk& chunk, std::span<const DepthRule> rules,
+                     const KernelTable& kernels);
 
     /// What is visible of all that was drawn, inside the frame. Valid until the next `begin` or
     /// `forget`.
@@ -50,10 +53,13 @@ class TileVisibility {
     [[nodiscard]] std::int32_t top() const { return m_tile_y * kTileSize; }
 
   private:
+    void draw_entries(const Chunk& chunk, std::span<const DepthRule> rules,
+                      const KernelTable& kernels, std::uint32_t* id);
     void draw_tiny(const Chunk& chunk, std::span<const TileEntry> entries,
-                   std::span<const DepthRule> rules, const KernelTable& kernels);
+                   std::span<const DepthRule> rules, const KernelTable& kernels, std::uint32_t* id);
     void draw_others(const Chunk& chunk, std::span<const TileEntry> entries,
-                     std::span<const DepthRule> rules, const KernelTable& kernels);
+                     std::span<const DepthRule> rules, const KernelTable& kernels,
+                     std::uint32_t* id);
     void hide_outside();
 
     std::int32_t m_tile_x = 0, m_tile_y = 0;

@@ -281,6 +281,8 @@ void store(const glm::dvec4& color, PixelFormat format, std::byte* to) {
             return store_codes<std::uint16_t>(color, 65535.0, to);
         case PixelFormat::rgba32f:
             return store_floats(color, to);
+        case PixelFormat::depth32f:  // refused by Renderer
+            return;
     }
 }
 

@@ -1,5 +1,6 @@
 #include "shade/attributes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -66,14 +67,43 @@ bool surface_derivatives(const VertexFrame& a, const VertexFrame& b, const Verte
     return true;
 }
 
+/// Whether corners of a triangle do not have what their vertices have.
+bool has_own_frames(const Shading& shading) {
+    return shading.frames_from_uv && shading.frame_attributes > kUvAttributes;
+}
+
+/// Lets every corner have a row of its own.
+void use_corners(const Shading& shading, const ScreenMesh& mesh,
+                 std::span<const SetupTriangle* const> triangles, PlaneInputs& scratch,
+                 AttributePlanesCtx& ctx) {
+    const auto row = static_cast<std::size_t>(shading.interpolated());
+    scratch.rows.resize(3 * triangles.size() * row + VertexRows::kSlack);
+    scratch.homogeneous.resize(3 * triangles.size());
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        CornerAttributes values;
+        corner_attributes(shading, mesh, *triangles[k], values);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t at = 3 * k + i;
+            std::uint32_t& vertex = scratch.triangles[k].vertex[i];
+            std::copy_n(values[i].data(), row, scratch.rows.data() + at * row);
+            scratch.homogeneous[at] = mesh.homogeneous[vertex];
+            vertex = static_cast<std::uint32_t>(at);
+        }
+    }
+    ctx.homogeneous = scratch.homogeneous.data();
+    ctx.rows = scratch.rows.data();
+    ctx.row_stride = static_cast<std::ptrdiff_t>(row);
+}
+
 }  // namespace
 
 void corner_attributes(const Shading& shading, const ScreenMesh& mesh,
                        const SetupTriangle& triangle, CornerAttributes& out) {
     const std::array<std::uint32_t, 3> vertex = corner_vertices(mesh, triangle);
-    for (std::size_t i = 0; i < 3; ++i) vertex_attributes(shading, vertex[i], out[i].data());
-    const bool frames = shading.frame_attributes > kUvAttributes;
-    if (!shading.frames_from_uv || !frames) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::copy_n(shading.rows.row(vertex[i]), shading.interpolated(), out[i].data());
+    }
+    if (!has_own_frames(shading)) return;
     glm::vec3 u, v;
     const auto frame = [&](std::size_t i) { return shading.frames[vertex[i]]; };
     if (!surface_derivatives(frame(0), frame(1), frame(2), u, v)) return;
@@ -97,29 +127,30 @@ Barycentrics barycentrics(const ScreenMesh& mesh, const SetupTriangle& triangle,
     return {{a / sum, b / sum, c / sum}, sum * rows.scale};
 }
 
-void attribute_planes(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
-                      AttributePlane* out) {
-    CornerAttributes values;
-    corner_attributes(shading, mesh, triangle, values);
-    CornerRows rows = corner_rows(mesh, triangle);
-    std::array<Vector, 3>& b = rows.row;
-    const auto count = static_cast<std::size_t>(shading.interpolated());
-    if (!std::isfinite(rows.scale)) {  // seen edge-on: no plane, so the first corner's values
-        out[0] = {1.0F, 0.0F, 0.0F};
-        for (std::size_t k = 0; k < count; ++k) out[k + 1] = {values[0][k], 0.0F, 0.0F};
-        return;
+void attribute_planes(const Shading& shading, const ScreenMesh& mesh,
+                      std::span<const SetupTriangle* const> triangles, const KernelTable& kernels,
+                      PlaneInputs& scratch, float* equations) {
+    const int count = shading.interpolated();
+    scratch.triangles.resize(triangles.size());
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const SetupTriangle& t = *triangles[k];
+        const std::array<std::uint32_t, 3> vertex = corner_vertices(mesh, t);
+        scratch.triangles[k] = {{t.x[0], t.x[1], t.x[2]},
+                                {t.y[0], t.y[1], t.y[2]},
+                                {vertex[0], vertex[1], vertex[2]},
+                                t.reference_x,
+                                t.reference_y,
+                                t.clipped != 0 ? 1 : 0};
     }
-    for (Vector& row : b) row = {row.x * rows.scale, row.y * rows.scale, row.w * rows.scale};
-    const auto plane = [&](double a0, double a1, double a2) {
-        return AttributePlane{static_cast<float>(a0 * b[0].w + a1 * b[1].w + a2 * b[2].w),
-                              static_cast<float>(a0 * b[0].x + a1 * b[1].x + a2 * b[2].x),
-                              static_cast<float>(a0 * b[0].y + a1 * b[1].y + a2 * b[2].y)};
-    };
-    out[0] = plane(1.0, 1.0, 1.0);
-    for (std::size_t k = 0; k < count; ++k) {
-        out[k + 1] = plane(static_cast<double>(values[0][k]), static_cast<double>(values[1][k]),
-                           static_cast<double>(values[2][k]));
-    }
+    AttributePlanesCtx ctx{scratch.triangles.data(),
+                           static_cast<int>(triangles.size()),
+                           mesh.homogeneous.data(),
+                           shading.rows.values.data(),
+                           static_cast<std::ptrdiff_t>(shading.rows.stride),
+                           count,
+                           equations};
+    if (has_own_frames(shading)) use_corners(shading, mesh, triangles, scratch, ctx);
+    kernels.attribute_planes(ctx);
 }
 
 }  // namespace burnish

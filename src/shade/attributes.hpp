@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "core/aligned.hpp"
 #include "geometry/triangle.hpp"
-#include "kernels/packet_stages.hpp"
+#include "kernels/kernel_table.hpp"
 #include "shade/shading.hpp"
 
 namespace burnish {
@@ -12,22 +15,37 @@ namespace burnish {
 /// The first shading.interpolated() attributes of three corners.
 using CornerAttributes = std::array<std::array<float, kMaxInterpolated>, 3>;
 
-/// What the corners of a triangle hand to the interpolators: vertex_attributes, with T and B of the
-/// triangle itself where shading.frames_from_uv asks for it and uv have an area. They are dP/du and
-/// dP/dv, v growing upward, in double precision, each normalised and rounded to float.
+/// What the corners of a triangle hand to the interpolators: the rows of their vertices, with T and
+/// B of the triangle itself where shading.frames_from_uv asks for it and uv have an area. They are
+/// dP/du and dP/dv, v growing upward, in double precision, each normalised and rounded to float.
 void corner_attributes(const Shading& shading, const ScreenMesh& mesh,
                        const SetupTriangle& triangle, CornerAttributes& out);
 
-/// Plane equations of 1/w and of the attributes over w, for the window pixels of a triangle,
-/// counted from its reference pixel. `out` holds shading.interpolated() + 1 planes.
+/// Arguments of attribute_planes on their way to the kernel.
+struct PlaneInputs {
+    std::vector<PlaneTriangle> triangles;
+    // Where corners do not have what their vertices have, three rows for each triangle:
+    AlignedVector<float> rows;
+    std::vector<HomogeneousVertex> homogeneous;
+};
+
+/// Rows of AttributesCtx::equations.
+inline std::size_t equation_rows(const Shading& shading) {
+    return std::size_t{3} * (static_cast<std::size_t>(shading.interpolated()) + 1);
+}
+
+/// Equations of 1/w and of the shading.interpolated() attributes over w, for the window pixels of
+/// up to kPacketSize triangles of a draw: AttributePlanesCtx. `equations` is
+/// AttributesCtx::equations.
 ///
 /// The three vertices span a plane through the eye in homogeneous window coordinates, so this holds
 /// for triangles that were clipped too, with the vertices they had before; where nothing was cut
 /// the snapped positions are used, so that every covered pixel centre interpolates, never
 /// extrapolates. Method: M. Olano, T. Greer, "Triangle Scan Conversion using 2D Homogeneous
 /// Coordinates", 1997.
-void attribute_planes(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
-                      AttributePlane* out);
+void attribute_planes(const Shading& shading, const ScreenMesh& mesh,
+                      std::span<const SetupTriangle* const> triangles, const KernelTable& kernels,
+                      PlaneInputs& scratch, float* equations);
 
 /// Where a pixel lies in its triangle.
 struct Barycentrics {

@@ -23,7 +23,7 @@ struct FragmentOutput {
 /// late depth tests, the depths and their bounds.
 struct OutputTile {
     StoreFormat format;
-    void* pixels;
+    void* pixels;  ///< null: nothing but depths is kept
     float* depth;
     float* block_far;
 };

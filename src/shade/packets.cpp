@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <bit>
 
-#include "shade/attributes.hpp"
-
 namespace burnish {
 
 PacketShader::PacketShader()
     : m_pixels(kPacketSize + PixelList::kSlack),
       m_stored(kPacketSize + PixelList::kSlack),
-      m_plane_equations(static_cast<std::size_t>(kPacketSize) * (kMaxInterpolated + 1)),
       m_attributes(static_cast<std::size_t>(kMaxAttributes) * kAttributeStride),
       m_weights(2 * kPacketSize),
       m_texels(kPacketSize) {
@@ -30,23 +27,36 @@ void PacketShader::begin(const ShadedTile& tile) {
     m_packet.count = 0;
     m_runs.clear();
     m_depth_runs.clear();
-    m_shown_triangles.clear();
+    forget_columns();
 }
 
 void PacketShader::shade(const TileFragments& fragments, std::span<const ShadedDraw> draws,
                          const KernelTable& kernels) {
     const std::uint16_t* pixels = fragments.pixels;
-    for (std::size_t k = 0; k < fragments.triangles.size(); ++k) {
-        const int count = fragments.size[k];
-        if (count == 0) continue;
+    const std::size_t end = fragments.triangles.size();
+    for (std::size_t k = 0; k < end;) {
+        int count = fragments.size[k];
+        if (count == 0) {
+            ++k;
+            continue;
+        }
         const SetupTriangle& triangle = *fragments.triangles[k];
         start_draw(draws[triangle.draw], kernels);
+        if (m_interpolates && m_next_column == m_planes.size()) look_ahead(fragments, k);
+        ++k;
         if (m_draw.shading->quads) {
             PixelMask mask;
             mask_pixels(pixels, count, mask);
             list_quads(mask, m_list);
             append(triangle, {m_list.shaded, m_list.stored, m_list.count}, kernels);
         } else {
+            if (!m_interpolates && !m_needs_depth) {  // then all triangles of the draw are one
+                for (; k < end; ++k) {
+                    if (fragments.size[k] == 0) continue;
+                    if (fragments.triangles[k]->draw != triangle.draw) break;
+                    count += fragments.size[k];
+                }
+            }
             append(triangle, {pixels, nullptr, count}, kernels);
         }
         pixels += count;
@@ -91,19 +101,51 @@ void PacketShader::start_draw(const ShadedDraw& draw, const KernelTable& kernels
     if (draw.shading == m_draw.shading) return;
     shade_packet(kernels);
     m_draw = draw;
+    m_interpolates = draw.shading->interpolated() > 0 || draw.shown != nullptr;
+    m_needs_depth = draw.output->late_depth || draw.shown != nullptr;
+    forget_columns();
+}
+
+void PacketShader::forget_columns() {
+    m_planes.clear();
+    m_first_column = m_next_column = 0;
+}
+
+/// Columns for the draw's visible triangles from number `first` on, as many as there is room for.
+void PacketShader::look_ahead(const TileFragments& fragments, std::size_t first) {
+    make_room();
+    const std::uint32_t draw = fragments.triangles[first]->draw;
+    for (std::size_t k = first; k < fragments.triangles.size() && !m_planes.full(); ++k) {
+        if (fragments.size[k] == 0) continue;
+        if (fragments.triangles[k]->draw != draw) return;
+        m_planes.push(*fragments.triangles[k]);
+    }
+}
+
+/// Forgets the columns before the packet's. It holds less than kPacketSize fragments, and so runs.
+void PacketShader::make_room() {
+    m_planes.drop(m_first_column);
+    m_next_column -= m_first_column;
+    m_first_column = 0;
+}
+
+void PacketShader::take_column(const SetupTriangle& triangle) {
+    if (m_next_column == m_planes.size()) {
+        if (m_planes.full()) make_room();
+        m_planes.push(triangle);
+    }
+    ++m_next_column;
 }
 
 void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
                           const KernelTable& kernels) {
-    const auto planes = static_cast<std::size_t>(m_draw.shading->interpolated()) + 1;
-    AttributePlane* equations = m_plane_equations.data() + m_runs.size() * planes;
-    attribute_planes(*m_draw.shading, m_draw.mesh, triangle, equations);
     const std::int32_t offset_x = m_tile.left - triangle.reference_x,
                        offset_y = m_tile.top - triangle.reference_y;
+    if (m_interpolates) take_column(triangle);
     while (fragments.count > 0) {
         const int first = m_packet.count;
         const int count = std::min(fragments.count, kPacketSize - first);
-        m_runs.push_back({equations, first, count, offset_x, offset_y});
+        if (m_interpolates) m_runs.push_back({first, count, offset_x, offset_y});
         m_copied = fragments.stored != nullptr;
         if (m_copied) {
             m_packet.pixels = m_pixels.data();
@@ -113,8 +155,7 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         } else if (first == 0) {
             m_packet.pixels = fragments.shaded;
         }
-        if (m_draw.shown != nullptr) m_shown_triangles.push_back(&triangle);
-        if (m_draw.output->late_depth || m_draw.shown != nullptr) {
+        if (m_needs_depth) {
             m_depth_runs.push_back({triangle.z, triangle.zx, triangle.zy, triangle.z_low,
                                     triangle.z_high, first, count, offset_x, offset_y});
         }
@@ -123,9 +164,7 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         m_packet.count += count;
         if (m_packet.count < kPacketSize) continue;
         shade_packet(kernels);
-        if (fragments.count > 0) {  // its equations become the first of the next packet
-            equations = std::copy_n(equations, planes, m_plane_equations.data()) - planes;
-        }
+        if (m_interpolates && fragments.count > 0) --m_first_column;
     }
 }
 
@@ -139,7 +178,9 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
                        static_cast<int>(m_depth_runs.size()), m_tile.output, m_stored.data(),
                        m_packet);
     }
-    if (m_draw.shown != nullptr) {
+    if (m_tile.output.pixels == nullptr) {
+        // The tests have left the depths.
+    } else if (m_draw.shown != nullptr) {
         show_values(kernels);
     } else {
         write_colors(shading, output.blend, kernels);
@@ -149,22 +190,27 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
     m_packet.count = 0;
     m_runs.clear();
     m_depth_runs.clear();
-    m_shown_triangles.clear();
+    m_first_column = m_next_column;
     m_pending.blocks = 0;
+}
+
+AttributesCtx PacketShader::runs(const Shading& shading, const KernelTable& kernels) {
+    const int count = shading.interpolated();
+    if (count == 0) return {m_runs.data(), static_cast<int>(m_runs.size()), 0, nullptr};
+    const float* const equations = m_planes.equations(shading, m_draw.mesh, kernels);
+    return {m_runs.data(), static_cast<int>(m_runs.size()), count, equations + m_first_column};
 }
 
 void PacketShader::shade_colors(const Shading& shading, const KernelTable& kernels) {
     const auto planes = static_cast<std::size_t>(shading.program.plane_count) * kPacketSize;
-    if (m_planes.size() < planes) {
-        m_planes.resize(planes);
+    if (m_registers.size() < planes) {
+        m_registers.resize(planes);
         m_loaded = nullptr;
     }
-    m_packet.planes = m_planes.data();
+    m_packet.planes = m_registers.data();
     if (m_loaded != &shading) load_constants(shading.program, m_packet);
     m_loaded = &shading;
-    const AttributesCtx runs{m_runs.data(), static_cast<int>(m_runs.size()),
-                             shading.interpolated()};
-    burnish::shade_packet(shading, kernels, runs, m_packet);
+    burnish::shade_packet(shading, kernels, runs(shading, kernels), m_packet);
 }
 
 void PacketShader::write_colors(const Shading& shading, const std::optional<Blend>& blend,
@@ -176,14 +222,9 @@ void PacketShader::write_colors(const Shading& shading, const std::optional<Blen
 /// The triangles are interpolated once more, for the values.
 void PacketShader::show_values(const KernelTable& kernels) {
     const ShownValues& shown = *m_draw.shown;
-    const auto planes = static_cast<std::size_t>(shown.values.interpolated()) + 1;
-    m_shown_equations.resize(m_runs.size() * planes);
     m_shown_runs.clear();
     for (std::size_t i = 0; i < m_runs.size(); ++i) {
-        const SetupTriangle& triangle = *m_shown_triangles[i];
-        m_runs[i].planes = m_shown_equations.data() + i * planes;
-        attribute_planes(shown.values, m_draw.mesh, triangle,
-                         m_shown_equations.data() + i * planes);
+        const SetupTriangle& triangle = m_planes.triangle(m_first_column + i);
         m_shown_runs.push_back({m_depth_runs[i], triangle.draw, triangle.number});
     }
     if (!shown.aov) {
@@ -195,8 +236,7 @@ void PacketShader::show_values(const KernelTable& kernels) {
     if (depth >= 0) {
         std::copy_n(m_packet.attributes + depth * kAttributeStride, kPacketSize, own_depths);
     }
-    kernels.attributes(
-        m_packet, {m_runs.data(), static_cast<int>(m_runs.size()), shown.values.interpolated()});
+    kernels.attributes(m_packet, runs(shown.values, kernels));
     write_values(shown, m_packet, m_shown_runs, depth >= 0 ? own_depths : nullptr,
                  m_copied ? m_stored.data() : m_packet.pixels, m_tile.output);
 }

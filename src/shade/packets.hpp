@@ -9,6 +9,7 @@
 #include "kernels/kernel_table.hpp"
 #include "shade/output.hpp"
 #include "shade/pixel_list.hpp"
+#include "shade/plane_batch.hpp"
 #include "shade/shading.hpp"
 #include "shade/shown.hpp"
 
@@ -65,6 +66,11 @@ class PacketShader {
     };
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
     void shade_packet(const KernelTable& kernels);
+    AttributesCtx runs(const Shading& shading, const KernelTable& kernels);
+    void look_ahead(const TileFragments& fragments, std::size_t first);
+    void take_column(const SetupTriangle& triangle);
+    void make_room();
+    void forget_columns();
     void shade_colors(const Shading& shading, const KernelTable& kernels);
     void show_values(const KernelTable& kernels);
     void write_colors(const Shading& shading, const std::optional<Blend>& blend,
@@ -77,6 +83,8 @@ class PacketShader {
     ShadedDraw m_draw{};                ///< of the packet's fragments
     const Shading* m_loaded = nullptr;  ///< whose constants the planes hold
     Packet m_packet{};
+    bool m_interpolates = false;  ///< the draw needs runs
+    bool m_needs_depth = false;   ///< and those of the depth
     bool m_copied =
         false;  ///< the packet's pixels are m_pixels, and m_stored says which are stored
     AlignedVector<std::uint16_t> m_pixels, m_stored;
@@ -84,12 +92,12 @@ class PacketShader {
     PixelList m_list;
     std::vector<Run> m_runs;
     std::vector<DepthRun> m_depth_runs;
-    std::vector<const SetupTriangle*> m_shown_triangles;  ///< of the runs, where values are shown
+    PlaneBatch m_planes;  ///< of the packet's triangles and, where they are known, later ones
+    std::size_t m_first_column = 0;  ///< of the packet's first run
+    std::size_t m_next_column = 0;   ///< of the triangle that comes next
     std::vector<ShownRun> m_shown_runs;
-    AlignedVector<AttributePlane> m_plane_equations;  ///< of the runs, one after the other
-    AlignedVector<AttributePlane> m_shown_equations;
     AlignedVector<float> m_attributes;
-    AlignedVector<std::int16_t> m_planes, m_weights;
+    AlignedVector<std::int16_t> m_registers, m_weights;
     AlignedVector<std::int32_t> m_texels;
 };
 

@@ -14,10 +14,6 @@
 
 namespace burnish {
 
-/// Attributes that a mesh's vertices bring themselves: uv and, where light meets the tangent frame
-/// at every pixel, T, B, N and the position.
-inline constexpr int kUvAttributes = 2;
-inline constexpr int kFrameAttributes = 12;
 /// Lights of a scene, at most: what their vectors and colours take of kMaxInterpolated.
 inline constexpr std::size_t kMaxLights = 8;
 /// All that can be interpolated: uv; of vertices view vector and normal, and of every light half
@@ -68,7 +64,7 @@ struct Shading : LightShading {
     int frame_attributes = 0;           ///< 0, kUvAttributes, or with kFrameAttributes
     bool frames_from_uv = false;        ///< T and B are the triangle's dP/du and dP/dv
     std::vector<Varying> varying_list;  ///< the attributes after those of the frames
-    std::vector<float> varyings;        ///< their values, vertex by vertex
+    VertexRows rows;                    ///< all of them, of the vertices
     UnitStates unit_states;
     std::vector<PlannedUnit> units;  ///< first_op counts `inputs`
     /// Attribute plane, computed by the input ops; a fragment lives only where it is > 0. Or -1.
@@ -78,6 +74,7 @@ struct Shading : LightShading {
     int depth_attribute = -1;
     bool quads = false;        ///< fragments must come as whole 2x2 quads of one triangle
     bool reads_light = false;  ///< the inputs depend on the light
+    bool reads_frame = false;  ///< or on attributes of the frames
     std::vector<FurtherLight> further_lights;
     PortionCtx add_first{};              ///< the first light to the further ones
     int zero_plane = -1;                 ///< for sums of lights: must hold 0
@@ -91,13 +88,10 @@ struct Shading : LightShading {
 };
 
 /// Binds the programs, one for each of shading.lights, and plans their inputs; if more is wanted
-/// than their sum there must be one. `lights` is set before, `frames` and `varyings` afterwards.
+/// than their sum there must be one. `lights` is set before, `frames` and `rows` afterwards.
 /// Throws Error{bad_program} for what `machine` cannot run.
 void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
                   const Machine& machine, bool is_mesh, const Wanted& wanted = {});
-
-/// Writes the shading.interpolated() attributes of one vertex.
-void vertex_attributes(const Shading& shading, std::uint32_t vertex, float* out);
 
 /// One input operation on a packet; `runs` are those of its fragments.
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,

@@ -176,10 +176,10 @@ class ValueReader {
 template <class F>
 void fill_values(Shading& shading, std::size_t vertices, int count, F&& value) {
     for (int i = 0; i < count; ++i) shading.varying_list.push_back({Varying::Source::uv, i});
-    shading.varyings.reserve(vertices * static_cast<std::size_t>(count));
+    shading.rows.resize(vertices, static_cast<std::size_t>(count));
     for (std::size_t v = 0; v < vertices; ++v) {
         const glm::vec3 x = value(v);
-        for (int i = 0; i < count; ++i) shading.varyings.push_back(x[i]);
+        for (int i = 0; i < count; ++i) shading.rows.row(v)[i] = x[i];
     }
 }
 

@@ -23,22 +23,24 @@ class LonePacket {
     LonePacket(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
                std::int32_t x, std::int32_t y)
         : m_attributes(static_cast<std::size_t>(kMaxAttributes) * kAttributeStride),
-          m_planes(static_cast<std::size_t>(shading.program.plane_count) * kPacketSize),
-          m_equations(kMaxInterpolated + 1) {
-        const AttributePlane constant{1.0F, 0.0F, 0.0F};
-        attribute_planes(shading, mesh, triangle, m_equations.data());
+          m_planes(static_cast<std::size_t>(shading.program.plane_count) * kPacketSize) {
+        PlaneInputs scratch;
+        const SetupTriangle* const only[1] = {&triangle};
+        m_equations.resize(equation_rows(shading) * kAttributeStride);
+        attribute_planes(shading, mesh, only, table_reference(), scratch, m_equations.data());
         const int column = shading.quads ? x % 2 : 0, row = shading.quads ? y % 2 : 0;
         m_at = 2 * row + column;
         m_packet.count = shading.quads ? 4 : 1;
-        m_run = {m_equations.data(), 0, m_packet.count, x - column - triangle.reference_x,
+        m_run = {0, m_packet.count, x - column - triangle.reference_x,
                  y - row - triangle.reference_y};
         // Divided by the constant 1, the plane of 1/w shows itself.
-        const AttributePlane only[2] = {constant, m_equations.front()};
-        Run alone = m_run;
-        alone.planes = only;
-        table_reference().attributes(m_packet, {&alone, 1, 1});
+        AlignedVector<float> by_one(std::size_t{6} * kAttributeStride);
+        by_one[0] = 1.0F;
+        std::copy_n(m_equations.begin(), 3 * kAttributeStride,
+                    by_one.begin() + 3 * kAttributeStride);
+        table_reference().attributes(m_packet, {&m_run, 1, 1, by_one.data()});
         m_one_over_w = attribute(0);
-        m_runs = {&m_run, 1, shading.interpolated()};
+        m_runs = {&m_run, 1, shading.interpolated(), m_equations.data()};
         table_reference().attributes(m_packet, m_runs);
     }
     LonePacket(const LonePacket&) = delete;
@@ -63,7 +65,7 @@ class LonePacket {
   private:
     AlignedVector<float> m_attributes;
     AlignedVector<std::int16_t> m_planes;
-    std::vector<AttributePlane> m_equations;
+    AlignedVector<float> m_equations;  ///< AttributesCtx
     Run m_run{};
     AttributesCtx m_runs{};
     int m_at = 0;  ///< the traced fragment

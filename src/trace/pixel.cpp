@@ -28,6 +28,8 @@ std::array<double, 4> first_pixel(const TileImage& image) {
         case PixelFormat::rgba32f:
             read(float{});
             break;
+        case PixelFormat::depth32f:  // refused by trace_pixel
+            break;
     }
     return result;
 }

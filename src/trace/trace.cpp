@@ -108,6 +108,10 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
                     "a trace with profile double, which has no registers; expected one of the "
                     "machines");
     }
+    if (scene.format == PixelFormat::depth32f) {
+        throw Error(ErrorCode::bad_option,
+                    "a trace of a scene with format depth32f, expected a format of colours");
+    }
     PixelTrace trace;
     trace.x = x;
     trace.y = y;

@@ -8,12 +8,13 @@ namespace burnish {
 
 /// What a frame stores per pixel, channels in the order R, G, B, A, native byte order.
 enum class PixelFormat {
-    rgba8,    ///< unsigned 8 bits, 255 = 1
-    rgba16,   ///< unsigned 16 bits, 65535 = 1
-    rgba32f,  ///< float
+    rgba8,     ///< unsigned 8 bits, 255 = 1
+    rgba16,    ///< unsigned 16 bits, 65535 = 1
+    rgba32f,   ///< float
+    depth32f,  ///< one float and no colour: what draws leave in the depth buffer, 1 at first
 };
 
-/// Bytes per pixel: 4, 8 or 16.
+/// Bytes per pixel: 4, 8, 16 or 4.
 [[nodiscard]] std::size_t pixel_size(PixelFormat format) noexcept;
 
 /// Where a picture goes: row 0 on top, no transfer function. Owns its memory or borrows the

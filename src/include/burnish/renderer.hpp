@@ -30,6 +30,8 @@ struct RendererOptions {
     /// the pixel's centre, several in the cells of a grid, moved about by a fixed hash. Machines
     /// take one.
     int double_samples = 1;
+    /// Fill FrameStats::stages, kernels and tile_costs. Frames then take a few per cent longer.
+    bool accounting = false;
 };
 
 /// A register of the combiners as the picture, instead of what the final combiner delivers.
@@ -63,9 +65,37 @@ enum class Aov {
     triangle,  ///< r: number of the triangle, g: of the object; others a colour made of both
 };
 
+/// A part of the work on a frame, added up over all workers.
+struct StageCost {
+    std::string_view name;  ///< prepare, transform, setup, bin, coverage, packets, interpolate,
+                            ///< texture, combine, resolve; waiting: for the other workers
+    std::string_view unit;  ///< of `items`
+    double ms = 0.0;
+    std::uint64_t calls = 0;
+    std::uint64_t items = 0;
+};
+
+/// One kernel's part of its stage.
+struct KernelCost {
+    std::string_view name;
+    std::string_view stage;
+    double ms = 0.0;
+    std::uint64_t calls = 0;
+    std::uint64_t items = 0;  ///< elements; of kernels on packets fragments, times maps or
+                              ///< attributes where they do several at once
+};
+
+/// A tile's time on its worker, the fragments that were shaded in it, and what it was expected to
+/// cost when tiles were put in order: some 100 ns each.
+struct TileCost {
+    double ms = 0.0;
+    std::uint64_t fragments = 0;
+    std::uint32_t weight = 0;
+};
+
 /// What a frame did. Counts do not depend on ISA or thread count; times do.
 struct FrameStats {
-    std::uint64_t triangles = 0;             ///< submitted
+    std::uint64_t triangles = 0;             ///< submitted; of draws that are not left out
     std::uint64_t nonfinite_triangles = 0;   ///< dropped for a NaN or infinite clip position
     std::uint64_t degenerate_triangles = 0;  ///< zero area after snapping
     std::uint64_t clipped_triangles = 0;     ///< cut by the near, far or guard band planes
@@ -75,6 +105,9 @@ struct FrameStats {
     double geometry_ms = 0.0;  ///< vertices, setup, bins
     double tiles_ms = 0.0;     ///< coverage, shading, resolve
     std::vector<std::uint64_t> tiles_per_worker;
+    std::vector<StageCost> stages;     ///< with RendererOptions::accounting, as the next two
+    std::vector<KernelCost> kernels;   ///< that were called
+    std::vector<TileCost> tile_costs;  ///< row by row
 };
 
 /// Draws scenes. Bits of the frame depend on the scene and the machine profile only: not on the
@@ -91,19 +124,24 @@ class Renderer {
     [[nodiscard]] int threads() const noexcept;
 
     /// Renders `scene` into all of `target`, whose size (not the scene's) sets the resolution.
+    /// A frame of depths (PixelFormat::depth32f) gets the depth buffer as the draws leave it, the
+    /// window depth 0 .. 1 of the last fragment that wrote one. Draws that write no depth are left
+    /// out; only fragments are shaded of which shading decides whether they live or how deep they
+    /// lie.
     /// With Machine::double_precision: by the formulas of the models, in double precision; opaque
     /// meshes with a model only. Frames of floats are then not clamped to 1.
     /// Throws Error{bad_program} or Error{bad_option} for a material, machine or camera that cannot
-    /// be drawn, Error{limit} if memory runs out; the contents of `target` are then unspecified.
+    /// be drawn, Error{bad_option} for a frame of depths with Machine::double_precision,
+    /// Error{limit} if memory runs out; the contents of `target` are then unspecified.
     FrameStats render(const Scene& scene, Framebuffer& target);
 
     /// The same picture with a register in place of its colours; the background stays.
     /// Throws Error{bad_option}, too, for a register that the machine does not have; with
-    /// Machine::double_precision that is every one.
+    /// Machine::double_precision that is every one. So it does for a frame of depths.
     FrameStats render(const Scene& scene, Framebuffer& target, const ShownRegister& shown);
 
     /// The same fragments with what is known of their geometry in place of colours. Throws
-    /// Error{bad_option}, too, with Machine::double_precision.
+    /// Error{bad_option}, too, with Machine::double_precision and for a frame of depths.
     FrameStats render(const Scene& scene, Framebuffer& target, Aov shown);
 
   private:

@@ -1,0 +1,46 @@
+/// What the runs of a packet say, brought to its fragments.
+class FragmentRuns {
+  public:
+    FragmentRuns(const Packet& packet, const AttributesCtx& ctx) : m_packet(packet), m_ctx(ctx) {
+        const Run* const runs = ctx.runs;
+        for (int r = 0; r < ctx.run_count; ++r) {
+            m_offset_x[r] = runs[r].offset_x;
+            m_offset_y[r] = runs[r].offset_y;
+            const I16 number(static_cast<std::int16_t>(r));
+            const int end = runs[r].first + runs[r].count;
+            for (int i = runs[r].first; i < end; i += kLanes) store(m_run_of + i, number);
+        }
+        const Run& last = runs[ctx.run_count - 1];
+        m_end = last.first + last.count;
+        store(m_run_of + m_end, I16(static_cast<std::int16_t>(ctx.run_count - 1)));
+    }
+
+    /// Calls f(first fragment, pixel positions, row) for every vector of fragments; row(k) is row k
+    /// of the equations at each of them.
+    template <class F>
+    void for_each_vector(F&& f) const {
+        for (int i = 0; i < m_end; i += kLanes32) {
+            const int run = m_run_of[i];
+            const float* const equations = m_ctx.equations + run;
+            const std::uint16_t* const pixels = m_packet.pixels + i;
+            if (run == m_run_of[i + kLanes32 - 1]) {
+                f(i, positions(pixels, I32(m_offset_x[run]), I32(m_offset_y[run])),
+                  [&](int k) { return F32(equations[k * kAttributeStride]); });
+                continue;
+            }
+            // Fragments of a vector belong to runs that follow each other, no more than its lanes.
+            const auto* const numbers = reinterpret_cast<const std::uint16_t*>(m_run_of + i);
+            const LaneOrder spread(load_widened(numbers) - I32(run));
+            f(i, positions(pixels, spread(load(m_offset_x + run)), spread(load(m_offset_y + run))),
+              [&](int k) { return spread(load(equations + k * kAttributeStride)); });
+        }
+    }
+
+  private:
+    const Packet& m_packet;
+    const AttributesCtx& m_ctx;
+    int m_end;
+    alignas(64) std::int16_t m_run_of[kPacketSize + 2 * kLanes];
+    alignas(64) std::int32_t m_offset_x[kPacketSize + kLanes32];
+    alignas(64) std::int32_t m_offset_y[kPacketSize + kLanes32];
+};
