@@ -28,7 +28,7 @@ inline CornerLanes load_corners(const ScreenVertex* vertices, const std::uint32_
     return {corner[0], corner[1], corner.floats(2), corner[3]};
 }
 
-/// Edges at pixel centres of the box, for triangles in lanes: tiny ones' values stay below 2^23.
+/// Edges at pixel centres of the box, for triangles in lanes: tiny ones' values stay below 2^25.
 struct EdgeLanes {
     I32 value, right, down;  ///< at the current pixel; steps to the next ones
 };
@@ -115,21 +115,26 @@ inline F64 twice_area(const CornerLanes (&v)[3]) {
            to_double<Half>(v[1].y - v[0].y) * to_double<Half>(v[2].x - v[0].x);
 }
 
-/// The fields of kLanes32 triangles, each a vector of 32 bits, in the order of SetupTriangle.
+/// The fields of kLanes32 triangles in the order of SetupTriangle, four at a time.
 struct SetupLanes {
     Columns chunk[4];
 };
 
 /// Writes triangles one after the other; those whose bit is not set are overwritten by the next.
+/// Row j of four holds triangles 4 k + j in lanes k.
 template <int Lane = 0>
-inline void write_triangles(const SetupLanes& lanes, std::uint32_t drawn, unsigned char* out) {
+inline void write_triangles(const LaneRows (&rows)[4], std::uint32_t drawn, unsigned char* out) {
     if constexpr (Lane < kParts) {
         for (int j = 0; j < 4; ++j) {
-            for (int c = 0; c < 4; ++c) store_lane<Lane>(out + 16 * c, lanes.chunk[c].column[j]);
+            rows[j].store<Lane>(out);
             out += (drawn >> (4 * Lane + j) & 1) * sizeof(SetupTriangle);
         }
-        write_triangles<Lane + 1>(lanes, drawn, out);
+        write_triangles<Lane + 1>(rows, drawn, out);
     }
+}
+inline LaneRows triangle_row(const SetupLanes& lanes, int j) {
+    return LaneRows({lanes.chunk[0].column[j], lanes.chunk[1].column[j], lanes.chunk[2].column[j],
+                     lanes.chunk[3].column[j]});
 }
 
 /// The same for places.
@@ -279,7 +284,9 @@ void setup(const SetupCtx& ctx) noexcept {
                     Columns{{as_i16(z_high), as_i16(reference_x | reference_y << 16),
                              as_i16(number), as_i16(flags)}}};
                 for (Columns& chunk : fields.chunk) chunk = transposed(chunk);
-                write_triangles(fields, lanes, reinterpret_cast<unsigned char*>(out));
+                const LaneRows rows[4] = {triangle_row(fields, 0), triangle_row(fields, 1),
+                                          triangle_row(fields, 2), triangle_row(fields, 3)};
+                write_triangles(rows, lanes, reinterpret_cast<unsigned char*>(out));
                 const I32 tiles = ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize);
                 const Columns place = transposed({{as_i16(covered.rows[0]), as_i16(covered.rows[1]),
                                                    as_i16(corner), as_i16(tiles)}});
