@@ -131,7 +131,7 @@ struct Sheet {
     std::vector<ScreenVertex> vertices;
     std::vector<std::uint32_t> indices;
     AlignedVector<SetupTriangle> triangles{kTriangles + 1};
-    std::vector<std::uint64_t> covered = std::vector<std::uint64_t>(kTriangles + 1);
+    std::vector<SetupPlace> places = std::vector<SetupPlace>(kTriangles + 1);
     SetupCounts counts{};
 
     explicit Sheet(float size) {
@@ -160,14 +160,17 @@ struct Sheet {
         ctx.width = ctx.height = 1024;
         ctx.drop_negative = 1;
         ctx.triangles = triangles.data();
-        ctx.covered = covered.data();
+        ctx.places = places.data();
         ctx.counts = &counts;
         return ctx;
     }
     bool operator==(const Sheet& other) const {
         const auto drawn = static_cast<std::size_t>(counts.drawn);
+        const auto same_mask = [](const SetupPlace& a, const SetupPlace& b) {
+            return a.covered == b.covered;
+        };
         return counts.drawn == other.counts.drawn &&
-               std::equal(covered.data(), covered.data() + drawn, other.covered.data()) &&
+               std::equal(places.data(), places.data() + drawn, other.places.data(), same_mask) &&
                std::memcmp(triangles.data(), other.triangles.data(),
                            drawn * sizeof(SetupTriangle)) == 0;
     }
@@ -347,8 +350,8 @@ std::vector<TileEntry> entries_of(const Sheet& sheet) {
     std::vector<TileEntry> entries;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sheet.counts.drawn); ++i) {
         const PixelRect& box = sheet.triangles[i].box;
-        if (sheet.covered[i] == 0 || box.x1 >= kTileSize || box.y1 >= kTileSize) continue;
-        entries.push_back({sheet.covered[i], i, static_cast<std::uint8_t>(box.x0),
+        if (sheet.places[i].covered == 0 || box.x1 >= kTileSize || box.y1 >= kTileSize) continue;
+        entries.push_back({sheet.places[i].covered, i, static_cast<std::uint8_t>(box.x0),
                            static_cast<std::uint8_t>(box.y0)});
     }
     return entries;

@@ -115,7 +115,8 @@ inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeT
 
 /// Blocks of the 2 x 2 from the mask's corner on in which a fragment passed.
 inline std::uint64_t drawn_blocks(const TileEntry& entry, const std::uint8_t* passed) {
-    const std::uint64_t blocks = passed[0] | passed[1] << 1 | passed[2] << 8 | passed[3] << 9;
+    const auto blocks =
+        static_cast<std::uint64_t>(passed[0] | passed[1] << 1 | passed[2] << 8 | passed[3] << 9);
     return blocks << (entry.y / kBlockSize * kBlockSize + entry.x / kBlockSize);
 }
 
@@ -136,8 +137,7 @@ void rasterize_tiny(const RasterizeTinyCtx& ctx) {
                 append_fragments(entry, ctx.triangles[entry.triangle], ctx, next, count, fragments);
         }
         draw_fragments<Usual, HasIds>(fragments, count, ctx);
-        if constexpr (!HasIds) continue;
-        for (int k = first; k < next; ++k) {
+        for (int k = first; HasIds && k < next; ++k) {
             ctx.drawn[k] = drawn_blocks(ctx.entries[k], fragments.passed + kQuarters * (k - first));
         }
     }

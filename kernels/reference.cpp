@@ -131,9 +131,9 @@ void depth_plane(const ScreenVertex (&v)[3], Int area, SetupTriangle& out) {
     out.z_high = std::max({v[0].z, v[1].z, v[2].z});
 }
 
-/// Whether the triangle is drawn, and `covered` if it is tiny. Corners need no clipping.
+/// Whether the triangle is drawn. Corners need no clipping.
 bool set_up(const SetupCtx& ctx, ScreenVertex (&v)[3], SetupCounts& counts, SetupTriangle& out,
-            std::uint64_t& covered) {
+            SetupPlace& place) {
     const Int area =
         Int{v[1].x - v[0].x} * (v[2].y - v[0].y) - Int{v[1].y - v[0].y} * (v[2].x - v[0].x);
     if (area == 0) {
@@ -156,15 +156,17 @@ bool set_up(const SetupCtx& ctx, ScreenVertex (&v)[3], SetupCounts& counts, Setu
                static_cast<std::int16_t>(std::min(x1, Int{ctx.width} - 1)),
                static_cast<std::int16_t>(std::min(y1, Int{ctx.height} - 1))};
     if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return false;
-    covered = 0;
+    place = {0, static_cast<std::uint16_t>(out.box.x0), static_cast<std::uint16_t>(out.box.y0),
+             static_cast<std::uint32_t>(out.box.x0 / kTileSize != out.box.x1 / kTileSize ||
+                                        out.box.y0 / kTileSize != out.box.y1 / kTileSize)};
     const bool tiny = x1 - x0 < kTinySize && y1 - y0 < kTinySize;
     for (int y = out.box.y0; tiny && y <= out.box.y1; ++y) {
         for (int x = out.box.x0; x <= out.box.x1; ++x) {
             const int bit = kTinySize * (y - out.box.y0) + x - out.box.x0;
-            if (covers(out, x, y)) covered |= std::uint64_t{1} << bit;
+            if (covers(out, x, y)) place.covered |= std::uint64_t{1} << bit;
         }
     }
-    if (tiny && covered == 0) return false;
+    if (tiny && place.covered == 0) return false;
     const ScreenVertex& farthest = *std::max_element(
         v, v + 3, [](const ScreenVertex& a, const ScreenVertex& b) { return a.z < b.z; });
     out.reference_x = static_cast<std::int16_t>(clamp(farthest.x >> 8, 0, ctx.width - 1));
@@ -175,6 +177,7 @@ bool set_up(const SetupCtx& ctx, ScreenVertex (&v)[3], SetupCounts& counts, Setu
 
 void setup(const SetupCtx& ctx) noexcept {
     SetupCounts& counts = *ctx.counts = {};
+    PixelRect& bounds = counts.bounds = {32767, 32767, -1, -1};
     for (; counts.taken < ctx.count; ++counts.taken) {
         ScreenVertex v[3];
         for (int i = 0; i < 3; ++i) v[i] = ctx.vertices[ctx.indices[3 * counts.taken + i]];
@@ -186,10 +189,12 @@ void setup(const SetupCtx& ctx) noexcept {
         if ((v[0].outcode & v[1].outcode & v[2].outcode & Outcode::frustum) != 0) continue;
         if ((any & Outcode::needs_clip) != 0) return;
         SetupTriangle triangle{};
-        if (!set_up(ctx, v, counts, triangle, ctx.covered[counts.drawn])) continue;
+        if (!set_up(ctx, v, counts, triangle, ctx.places[counts.drawn])) continue;
         triangle.number = ctx.number + static_cast<std::uint32_t>(counts.taken);
         triangle.draw = ctx.draw & ((1U << 30) - 1);
         ctx.triangles[counts.drawn++] = triangle;
+        bounds = {std::min(bounds.x0, triangle.box.x0), std::min(bounds.y0, triangle.box.y0),
+                  std::max(bounds.x1, triangle.box.x1), std::max(bounds.y1, triangle.box.y1)};
     }
 }
 

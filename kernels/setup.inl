@@ -1,3 +1,19 @@
+/// The bit of each lane.
+struct LaneBits {
+    alignas(64) std::int32_t bit[16];
+};
+constexpr LaneBits make_lane_bits() {
+    LaneBits lanes{};
+    for (int i = 0; i < 16; ++i) lanes.bit[i] = 1 << i;
+    return lanes;
+}
+constexpr LaneBits kLaneBits = make_lane_bits();
+
+/// The way back from `bits`.
+inline Mask32 lane_mask(std::uint32_t lanes) {
+    return (I32(static_cast<std::int32_t>(lanes)) & load(kLaneBits.bit)) != I32(0);
+}
+
 /// Corners of one triangle per lane.
 struct CornerLanes {
     I32 x, y;
@@ -12,7 +28,7 @@ inline CornerLanes load_corners(const ScreenVertex* vertices, const std::uint32_
     return {corner[0], corner[1], corner.floats(2), corner[3]};
 }
 
-/// Edges at pixel centres of the box, for triangles in lanes: tiny ones' values stay below 2^23.
+/// Edges at pixel centres of the box, for triangles in lanes: tiny ones' values stay below 2^25.
 struct EdgeLanes {
     I32 value, right, down;  ///< at the current pixel; steps to the next ones
 };
@@ -29,36 +45,48 @@ struct CoverageLanes {
     I32 rows[2];
 };
 
-/// Coverage of tiny triangles, all of them at once and pixel after pixel. `right` and `bottom` are
-/// the size of the boxes less one; `tiny` tells which lanes count, and those of others are 0.
-inline CoverageLanes tiny_coverage(const CornerLanes (&v)[3], I32 x, I32 y, I32 right, I32 bottom,
-                                   Mask32 tiny) {
-    const I32 zero(0), one(1);
+/// The greatest number of a vector of numbers from 0 on.
+inline int greatest(I32 v) {
+    int n = 0;
+    while (bits(v > I32(n)) != 0) ++n;
+    return n;
+}
+
+/// Coverage of tiny triangles, all of them at once and pixel after pixel: of `columns` and `rows`
+/// pixels from (x, y) on. Beside a triangle's box nothing is inside, but beyond the frame.
+inline CoverageLanes tiny_coverage(const CornerLanes (&v)[3], I32 x, I32 y, int columns, int rows) {
     const I32 centre_x = (x << 8) + I32(128), centre_y = (y << 8) + I32(128);
     EdgeLanes edge[3] = {edge_lanes(v[0], v[1], centre_x, centre_y),
                          edge_lanes(v[1], v[2], centre_x, centre_y),
                          edge_lanes(v[2], v[0], centre_x, centre_y)};
-    const I32 columns = ::xsimd::select(tiny, right + one, zero);
-    const I32 rows = ::xsimd::select(tiny, bottom + one, zero);
-    CoverageLanes covered{{zero, zero}};
-    I32 rows_left = rows;
-    for (int row = 0; bits(rows_left > zero) != 0; ++row) {
+    const I32 all_columns((1 << columns) - 1);
+    CoverageLanes covered{{I32(0), I32(0)}};
+    for (int row = 0; row < rows; ++row) {
         I32 value[3] = {edge[0].value, edge[1].value, edge[2].value};
-        I32 bit = one, row_bits = zero, columns_left = columns;
-        const Mask32 inside_row = rows_left > zero;
-        while (bits(columns_left > zero) != 0) {
-            const I32 inside = ~(value[0] | value[1] | value[2]) >> 31;
-            row_bits = row_bits | ::xsimd::select(columns_left > zero, inside & bit, zero);
+        I32 bit(1), outside(0);
+        for (int column = 0; column < columns; ++column) {
+            outside = outside | (((value[0] | value[1] | value[2]) >> 31) & bit);
             for (int e = 0; e < 3; ++e) value[e] = value[e] + edge[e].right;
             bit = bit + bit;
-            columns_left = columns_left - one;
         }
         I32& four_rows = covered.rows[row / 4];
-        four_rows = four_rows | ::xsimd::select(inside_row, row_bits, zero) << row % 4 * kTinySize;
+        four_rows = four_rows | (outside ^ all_columns) << row % 4 * kTinySize;
         for (EdgeLanes& e : edge) e.value = e.value + e.down;
-        rows_left = rows_left - one;
     }
     return covered;
+}
+
+/// Pixels of a box within a mask of tiny triangles; sizes less one, below kTinySize.
+inline CoverageLanes box_mask(I32 right, I32 bottom) {
+    CoverageLanes mask{{I32(0), I32(0)}};
+    I32 row(0);
+    for (int column = 0; column < kTinySize; ++column)
+        row = row | ::xsimd::select(right >= I32(column), I32(1 << column), I32(0));
+    for (int y = 0; y < kTinySize; ++y) {
+        I32& four_rows = mask.rows[y / 4];
+        four_rows = four_rows | ::xsimd::select(bottom >= I32(y), row << y % 4 * kTinySize, I32(0));
+    }
+    return mask;
 }
 
 /// Half of the lanes, in double: what becomes of depths.
@@ -87,22 +115,61 @@ inline F64 twice_area(const CornerLanes (&v)[3]) {
            to_double<Half>(v[1].y - v[0].y) * to_double<Half>(v[2].x - v[0].x);
 }
 
-/// The fields of kLanes32 triangles, each a vector of 32 bits, in the order of SetupTriangle.
+/// The fields of kLanes32 triangles in the order of SetupTriangle, four at a time.
 struct SetupLanes {
     Columns chunk[4];
 };
 
 /// Writes triangles one after the other; those whose bit is not set are overwritten by the next.
+/// Row j of four holds triangles 4 k + j in lanes k.
 template <int Lane = 0>
-inline void write_triangles(const SetupLanes& lanes, std::uint32_t drawn, unsigned char* out) {
+inline void write_triangles(const LaneRows (&rows)[4], std::uint32_t drawn, unsigned char* out) {
     if constexpr (Lane < kParts) {
         for (int j = 0; j < 4; ++j) {
-            for (int c = 0; c < 4; ++c) store_lane<Lane>(out + 16 * c, lanes.chunk[c].column[j]);
+            rows[j].store<Lane>(out);
             out += (drawn >> (4 * Lane + j) & 1) * sizeof(SetupTriangle);
         }
-        write_triangles<Lane + 1>(lanes, drawn, out);
+        write_triangles<Lane + 1>(rows, drawn, out);
     }
 }
+inline LaneRows triangle_row(const SetupLanes& lanes, int j) {
+    return LaneRows({lanes.chunk[0].column[j], lanes.chunk[1].column[j], lanes.chunk[2].column[j],
+                     lanes.chunk[3].column[j]});
+}
+
+/// The same for places.
+template <int Lane = 0>
+inline void write_places(const Columns& place, std::uint32_t drawn, unsigned char* out) {
+    if constexpr (Lane < kParts) {
+        for (int j = 0; j < 4; ++j) {
+            store_lane<Lane>(out, place.column[j]);
+            out += (drawn >> (4 * Lane + j) & 1) * sizeof(SetupPlace);
+        }
+        write_places<Lane + 1>(place, drawn, out);
+    }
+}
+
+/// Around boxes, whose corners are pairs of 16-bit numbers.
+struct BoundsLanes {
+    I16 first = I16(32767), last = I16(-1);
+
+    void add(I32 from, I32 to, Mask32 lanes) {
+        first = min(first, as_i16(::xsimd::select(lanes, from, I32(0x7fff7fff))));
+        last = max(last, as_i16(::xsimd::select(lanes, to, I32(-1))));
+    }
+    PixelRect rect() const {
+        std::int16_t from[kLanes], to[kLanes];
+        store(from, first);
+        store(to, last);
+        PixelRect rect{32767, 32767, -1, -1};
+        for (int i = 0; i < kLanes; i += 2) {
+            rect = {from[i] < rect.x0 ? from[i] : rect.x0,
+                    from[i + 1] < rect.y0 ? from[i + 1] : rect.y0,
+                    to[i] > rect.x1 ? to[i] : rect.x1, to[i + 1] > rect.y1 ? to[i + 1] : rect.y1};
+        }
+        return rect;
+    }
+};
 
 /// Triangles for tiles. Formulas: SetupCtx. A triangle per lane; what follows the last one, or the
 /// first that needs clipping, is computed and dropped.
@@ -110,8 +177,9 @@ void setup(const SetupCtx& ctx) noexcept {
     static_assert(offsetof(SetupTriangle, box) == 24 && offsetof(SetupTriangle, z) == 32 &&
                   offsetof(SetupTriangle, reference_x) == 52);
     SetupTriangle* out = ctx.triangles;
-    std::uint64_t* out_covered = ctx.covered;
-    SetupCounts counts{ctx.count, 0, 0, 0};
+    SetupPlace* out_places = ctx.places;
+    BoundsLanes bounds;
+    SetupCounts counts{ctx.count, 0, 0, 0, {}};
     const I32 zero(0), last_x(ctx.width - 1), last_y(ctx.height - 1);
     for (int first = 0; first < ctx.count; first += kLanes32) {
         const int left = ctx.count - first;
@@ -172,10 +240,19 @@ void setup(const SetupCtx& ctx) noexcept {
             v[2].z = ::xsimd::select(negative, second.z, v[2].z);
 
             const I32 most(kTinySize - 1);
-            const Mask32 tiny = (to_x - from_x <= most) & (to_y - from_y <= most);
+            const Mask32 tiny =
+                (to_x - from_x <= most) & (to_y - from_y <= most) & lane_mask(lanes);
             CoverageLanes covered{{zero, zero}};
             if (bits(tiny) != 0) {
-                covered = tiny_coverage(v, x0, y0, x1 - x0, y1 - y0, tiny);
+                const auto size = [&](I32 from, I32 to) {
+                    return greatest(::xsimd::select(tiny, to - from + I32(1), zero));
+                };
+                covered = tiny_coverage(v, x0, y0, size(x0, to_x), size(y0, to_y));
+                if (bits((to_x > last_x) | (to_y > last_y)) != 0) {
+                    const CoverageLanes box = box_mask(x1 - x0, y1 - y0);
+                    for (int i = 0; i < 2; ++i) covered.rows[i] = covered.rows[i] & box.rows[i];
+                }
+                for (I32& rows : covered.rows) rows = ::xsimd::select(tiny, rows, zero);
                 lanes &= ~bits(tiny & ((covered.rows[0] | covered.rows[1]) == zero));
             }
             if (lanes != 0) {
@@ -198,32 +275,31 @@ void setup(const SetupCtx& ctx) noexcept {
                     I32(static_cast<std::int32_t>(ctx.number + static_cast<std::uint32_t>(first)));
                 const I32 flags = ::xsimd::select(swap, I32(1 << 30), zero) |
                                   I32(static_cast<std::int32_t>(ctx.draw));
+                const I32 corner = x0 | y0 << 16, opposite = x1 | y1 << 16;
                 SetupLanes fields{
                     Columns{{as_i16(v[0].x), as_i16(v[1].x), as_i16(v[2].x), as_i16(v[0].y)}},
-                    Columns{{as_i16(v[1].y), as_i16(v[2].y), as_i16(x0 | y0 << 16),
-                             as_i16(x1 | y1 << 16)}},
+                    Columns{{as_i16(v[1].y), as_i16(v[2].y), as_i16(corner), as_i16(opposite)}},
                     Columns{{as_i16(to_float(low.z, high.z)), as_i16(to_float(low.zx, high.zx)),
                              as_i16(to_float(low.zy, high.zy)), as_i16(z_low)}},
                     Columns{{as_i16(z_high), as_i16(reference_x | reference_y << 16),
                              as_i16(number), as_i16(flags)}}};
                 for (Columns& chunk : fields.chunk) chunk = transposed(chunk);
-                write_triangles(fields, lanes, reinterpret_cast<unsigned char*>(out));
-                std::int32_t masks[2][kLanes32];
-                store(masks[0], covered.rows[0]);
-                store(masks[1], covered.rows[1]);
-                std::uint64_t* to = out_covered;
-                for (int i = 0; i < kLanes32; ++i) {
-                    *to = static_cast<std::uint32_t>(masks[0][i]) |
-                          std::uint64_t{static_cast<std::uint32_t>(masks[1][i])} << 32;
-                    to += lanes >> i & 1;
-                }
+                const LaneRows rows[4] = {triangle_row(fields, 0), triangle_row(fields, 1),
+                                          triangle_row(fields, 2), triangle_row(fields, 3)};
+                write_triangles(rows, lanes, reinterpret_cast<unsigned char*>(out));
+                const I32 tiles = ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize);
+                const Columns place = transposed({{as_i16(covered.rows[0]), as_i16(covered.rows[1]),
+                                                   as_i16(corner), as_i16(tiles)}});
+                write_places(place, lanes, reinterpret_cast<unsigned char*>(out_places));
+                bounds.add(corner, opposite, lane_mask(lanes));
                 const int drawn = __builtin_popcount(lanes);
                 out += drawn;
-                out_covered += drawn;
+                out_places += drawn;
             }
         }
         if (clip != 0) break;
     }
     counts.drawn = static_cast<std::int32_t>(out - ctx.triangles);
+    counts.bounds = bounds.rect();
     *ctx.counts = counts;
 }

@@ -285,8 +285,32 @@ inline void store_lane(void* p, I16 v) {
 /// The elements whose bit is set, one after the other; the rest of a vector behind them may be
 /// written as well.
 inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
-    _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), v));
+    const __m512i packed = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), v);
+    // Half a vector crosses half as many cache lines.
+    if (__builtin_popcount(bits) <= 8) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_castsi512_si256(packed));
+    } else {
+        _mm512_storeu_si512(p, packed);
+    }
 }
+/// Four vectors, and lane K of each, one behind the other, to memory.
+struct LaneRows {
+    explicit LaneRows(const I16 (&v)[4]) {
+        const __m512i low01 = _mm512_shuffle_i32x4(v[0], v[1], 0x44);
+        const __m512i low23 = _mm512_shuffle_i32x4(v[2], v[3], 0x44);
+        const __m512i high01 = _mm512_shuffle_i32x4(v[0], v[1], 0xee);
+        const __m512i high23 = _mm512_shuffle_i32x4(v[2], v[3], 0xee);
+        row[0] = _mm512_shuffle_i32x4(low01, low23, 0x88);
+        row[1] = _mm512_shuffle_i32x4(low01, low23, 0xdd);
+        row[2] = _mm512_shuffle_i32x4(high01, high23, 0x88);
+        row[3] = _mm512_shuffle_i32x4(high01, high23, 0xdd);
+    }
+    template <int K>
+    void store(void* p) const {
+        _mm512_storeu_si512(p, row[K]);
+    }
+    __m512i row[4];
+};
 
 /// Lane k from p[k].
 inline I16 load_lanes(const void* const* p) {
@@ -829,6 +853,18 @@ inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
 #error "no vector wrappers for this architecture"
 #endif
 
+#if !defined(__AVX512BW__)
+struct LaneRows {
+    explicit LaneRows(const I16 (&v)[4]) : column{v[0], v[1], v[2], v[3]} {}
+    template <int K>
+    void store(void* p) const {
+        for (int c = 0; c < 4; ++c)
+            store_lane<K>(static_cast<unsigned char*>(p) + 16 * c, column[c]);
+    }
+    I16 column[4];
+};
+#endif
+
 /// The same bits as other elements.
 inline I32 as_i32(I16 v) {
     return ::xsimd::bitwise_cast<I32>(v);
@@ -898,7 +934,7 @@ inline Columns transposed(const Columns& m) {
 }
 /// Columns of kLanes32 rows of four 32-bit numbers; row(k) says where row k is.
 template <class Row>
-Columns load_columns(Row&& row) {
+[[gnu::always_inline]] inline Columns load_columns(Row&& row) {
     Columns rows;
     for (int j = 0; j < 4; ++j) {
         const void* lanes[kParts];

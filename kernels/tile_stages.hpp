@@ -101,6 +101,14 @@ struct SetupCounts {
     std::int32_t taken;  ///< triangles before the first that has to be clipped
     std::int32_t drawn;  ///< of these, those that were written
     std::int32_t nonfinite, degenerate;
+    PixelRect bounds;  ///< around the boxes of those drawn; of none {32767, 32767, -1, -1}
+};
+
+/// Where a triangle has to be drawn.
+struct SetupPlace {
+    std::uint64_t covered;  ///< of a tiny triangle, 0 of others
+    std::uint16_t x, y;     ///< upper left pixel of the box
+    std::uint32_t tiles;    ///< 0: the box lies in one tile; else it does not
 };
 
 /// Corners to triangles, in order, up to the first triangle that has to be clipped. A triangle is
@@ -111,7 +119,7 @@ struct SetupCounts {
 ///   one with a sign that is dropped; below 0 the second corner and the third are exchanged;
 ///   box: pixels with centres at 256 i + 128 from the least to the greatest coordinate, both
 ///   included, cut to the frame; empty: not drawn;
-///   tiny: `covered` is its coverage, and without a pixel it is not drawn; others have 0. A centre
+///   tiny: `covered` is its coverage, and without a pixel it is not drawn. A centre
 ///   on an edge is inside if the edge is a left one (y falls from corner i to the next) or a top
 ///   one (level, x rises);
 ///   reference pixel: (x >> 8, y >> 8) of the corner with the greatest z, the first of several, cut
@@ -129,7 +137,7 @@ struct SetupCtx {
     std::int32_t width, height;                 ///< frame, pixels
     std::uint8_t drop_positive, drop_negative;  ///< areas, y down
     SetupTriangle* triangles;                   ///< out, room for count + 1
-    std::uint64_t* covered;                     ///< out, room for count + 1
+    SetupPlace* places;                         ///< out, room for count + 1
     SetupCounts* counts;                        ///< out
 };
 

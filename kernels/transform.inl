@@ -36,20 +36,22 @@ void transform(const TransformCtx& ctx) noexcept {
             const F32 steps = ::xsimd::floor(window * subpixels + bias);
             return truncate(::xsimd::select(usable, steps, zero)) * step;
         };
-        alignas(64) std::int32_t sx[kLanes32], sy[kLanes32], out[kLanes32];
-        alignas(64) float sz[kLanes32], ox[kLanes32], oy[kLanes32], oz[kLanes32], ow[kLanes32];
-        store(sx, snap(wx));
-        store(sy, snap(wy));
-        store(out, code);
-        store(sz, ::xsimd::select(usable, divide(hz, w), zero));
-        store(ox, hx);
-        store(oy, hy);
-        store(oz, hz);
-        store(ow, w);
-        const int used = ctx.count - i < kLanes32 ? ctx.count - i : kLanes32;
-        for (int k = 0; k < used; ++k) {
-            ctx.screen[i + k] = {sx[k], sy[k], sz[k], static_cast<std::uint32_t>(out[k])};
-            ctx.homogeneous[i + k] = {ox[k], oy[k], oz[k], ow[k]};
+        const Columns screen{{as_i16(snap(wx)), as_i16(snap(wy)),
+                              as_i16(::xsimd::select(usable, divide(hz, w), zero)), as_i16(code)}};
+        const Columns homogeneous{{as_i16(hx), as_i16(hy), as_i16(hz), as_i16(w)}};
+        const int left = ctx.count - i;
+        if (left >= kLanes32) {
+            store_columns(screen, [&](int k) { return ctx.screen + i + k; });
+            store_columns(homogeneous, [&](int k) { return ctx.homogeneous + i + k; });
+            continue;
+        }
+        ScreenVertex last_screen[kLanes32];
+        HomogeneousVertex last_homogeneous[kLanes32];
+        store_columns(screen, [&](int k) { return last_screen + k; });
+        store_columns(homogeneous, [&](int k) { return last_homogeneous + k; });
+        for (int k = 0; k < left; ++k) {
+            ctx.screen[i + k] = last_screen[k];
+            ctx.homogeneous[i + k] = last_homogeneous[k];
         }
     }
 }

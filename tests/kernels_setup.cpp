@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "kernel_test.hpp"
@@ -65,14 +66,14 @@ struct Soup {
 
 struct Triangles {
     AlignedVector<SetupTriangle> triangles;
-    std::vector<std::uint64_t> covered;
-    SetupCounts counts{-1, -1, -1, -1};
+    std::vector<SetupPlace> places;
+    SetupCounts counts{-1, -1, -1, -1, {}};
 
     Triangles(const KernelTable& table, SetupCtx ctx)
         : triangles(static_cast<std::size_t>(ctx.count) + 1),
-          covered(static_cast<std::size_t>(ctx.count) + 1) {
+          places(static_cast<std::size_t>(ctx.count) + 1) {
         ctx.triangles = triangles.data();
-        ctx.covered = covered.data();
+        ctx.places = places.data();
         ctx.counts = &counts;
         table.setup(ctx);
     }
@@ -83,8 +84,12 @@ void expect_same(const Triangles& got, const Triangles& want, const std::string&
     ASSERT_EQ(got.counts.drawn, want.counts.drawn) << where;
     ASSERT_EQ(got.counts.nonfinite, want.counts.nonfinite) << where;
     ASSERT_EQ(got.counts.degenerate, want.counts.degenerate) << where;
+    ASSERT_EQ(std::memcmp(&got.counts.bounds, &want.counts.bounds, sizeof(PixelRect)), 0) << where;
     for (std::size_t i = 0; i < static_cast<std::size_t>(want.counts.drawn); ++i) {
-        ASSERT_EQ(got.covered[i], want.covered[i]) << where << ", drawn " << i;
+        const SetupPlace &g = got.places[i], &w = want.places[i];
+        ASSERT_EQ(g.covered, w.covered) << where << ", drawn " << i;
+        ASSERT_EQ(std::pair(g.x, g.y), std::pair(w.x, w.y)) << where << ", drawn " << i;
+        ASSERT_EQ(g.tiles == 0, w.tiles == 0) << where << ", drawn " << i;
         ASSERT_EQ(std::memcmp(&got.triangles[i], &want.triangles[i], sizeof(SetupTriangle)), 0)
             << where << ", drawn " << i << ", number " << want.triangles[i].number;
     }
@@ -99,9 +104,8 @@ TEST_P(KernelTest, SetupOfRandomTriangles) {
         ASSERT_NO_FATAL_FAILURE(
             expect_same(got, want, name("setup") + ", seed " + std::to_string(seed)));
         drawn += want.counts.drawn;
-        tiny += static_cast<int>(
-            want.counts.drawn -
-            std::count(want.covered.begin(), want.covered.begin() + want.counts.drawn, 0U));
+        for (int i = 0; i < want.counts.drawn; ++i)
+            tiny += want.places[static_cast<std::size_t>(i)].covered != 0 ? 1 : 0;
         stopped += want.counts.taken < soup.ctx.count ? 1 : 0;
         dropped += want.counts.taken - want.counts.drawn;
     }

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "kernel_test.hpp"
+#include "tests/set_up.hpp"
 
 /// Numbers worked out by hand for everything around the combiners, for every table: vertices,
 /// coverage, depth, interpolation, texels, pixels.
@@ -115,6 +118,50 @@ TEST_P(ReferencePixels, TopLeftRuleSharesTheDiagonal) {
             }
         }
     }
+}
+
+// Corners at pixels (1, 1), (4, 1) and (1, 4). Of the centres in the box those at x + y = 5 lie on
+// the edge to the lower right, which is neither a left nor a top one: 3 pixels are left.
+TEST_P(ReferencePixels, TinyTriangle) {
+    const std::array vertices{ScreenVertex{256, 256, 0.25F, 0}, ScreenVertex{1024, 256, 0.5F, 0},
+                              ScreenVertex{256, 1024, 0.75F, 0}};
+    for (const bool backwards : {false, true}) {
+        const OneTriangle one = set_up(
+            table(), {{vertices[0], vertices[backwards ? 2 : 1], vertices[backwards ? 1 : 2]}},
+            {100, 100});
+        ASSERT_EQ(one.counts.drawn, 1);
+        EXPECT_EQ(one.covered, 0x103U);
+        const SetupTriangle& t = one.triangle;
+        EXPECT_EQ(t.swapped, backwards ? 1U : 0U);
+        EXPECT_TRUE(t.box.x0 == 1 && t.box.y0 == 1 && t.box.x1 == 3 && t.box.y1 == 3);
+        // The last corner is the farthest; 1/4 over 3 pixels and 1/2 over 3 pixels. At (1.5, 4.5):
+        // 1/4 + 1/2 / 12 + 7/2 / 6 = 7/8.
+        EXPECT_EQ(t.reference_x, 1);
+        EXPECT_EQ(t.reference_y, 4);
+        EXPECT_FLOAT_EQ(t.zx, 1.0F / 12);
+        EXPECT_FLOAT_EQ(t.zy, 1.0F / 6);
+        EXPECT_FLOAT_EQ(t.z, 0.875F);
+        EXPECT_EQ(std::pair(t.z_low, t.z_high), std::pair(0.25F, 0.75F));
+    }
+}
+
+// Its mask at (7, 7) of a tile: pixels (7, 7), (8, 7) and (7, 8) of blocks 0, 1 and 8, the second
+// of which shows something nearer.
+TEST_P(ReferencePixels, MaskAcrossBlocks) {
+    const TileEntry entry{0x103, 0, 7, 7};
+    SetupTriangle triangle{};
+    triangle.z = triangle.z_low = triangle.z_high = 0.5F;
+    AlignedVector<float> depth(kTilePixels + 1, 1.0F), far(kTileBlocks, 1.0F);
+    AlignedVector<std::uint32_t> id(kTilePixels + 1, kNoTriangle);
+    depth[64 + 56] = 0.25F;
+    std::uint64_t drawn = 0;
+    table().rasterize_tiny(
+        {&entry, 1, &triangle, {1, 0, 0, 1}, 0, 0, 9, depth.data(), id.data(), far.data(), &drawn});
+    EXPECT_EQ(drawn, 0x101U);
+    EXPECT_EQ(std::count(id.begin(), id.begin() + kTilePixels, 9U), 2);
+    EXPECT_EQ(std::pair(id[63], depth[63]), std::pair(9U, 0.5F));
+    EXPECT_EQ(std::pair(id[8 * 64 + 7], depth[8 * 64 + 7]), std::pair(9U, 0.5F));
+    EXPECT_EQ(depth[64 + 56], 0.25F);
 }
 
 TEST_P(ReferencePixels, DepthIsOneExpressionClampedToTheTriangle) {

@@ -21,7 +21,7 @@ inline OneTriangle set_up(const KernelTable& kernels, std::array<ScreenVertex, 3
     for (ScreenVertex& v : corners) v.outcode = 0;
     constexpr std::uint32_t kIndices[3] = {0, 1, 2};
     SetupTriangle triangles[2]{};
-    std::uint64_t covered[2] = {};
+    SetupPlace places[2] = {};
     OneTriangle one;
     SetupCtx ctx{};
     ctx.vertices = corners.data();
@@ -30,11 +30,11 @@ inline OneTriangle set_up(const KernelTable& kernels, std::array<ScreenVertex, 3
     ctx.width = frame.width;
     ctx.height = frame.height;
     ctx.triangles = triangles;
-    ctx.covered = covered;
+    ctx.places = places;
     ctx.counts = &one.counts;
     kernels.setup(ctx);
     one.triangle = triangles[0];
-    one.covered = covered[0];
+    one.covered = places[0].covered;
     return one;
 }
 

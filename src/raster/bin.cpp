@@ -38,8 +38,8 @@ std::size_t chunk_size(FrameSize frame, std::size_t triangles) {
 }
 
 std::size_t Chunk::bytes() const {
-    return m_count * (sizeof(SetupTriangle) + sizeof(std::uint64_t)) +
-           m_unsorted.size() * sizeof(PlacedEntry) + m_entries.size() * sizeof(TileEntry) +
+    return m_count * (sizeof(SetupTriangle) + sizeof(SetupPlace)) +
+           m_parts.size() * sizeof(PlacedEntry) + m_entries.size() * sizeof(TileEntry) +
            m_first.size() * sizeof(std::uint32_t);
 }
 
@@ -63,7 +63,8 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
                  const KernelTable& kernels) {
     const StageScope setup(FrameStage::setup, last - first);
     m_count = 0;
-    m_unsorted.clear();
+    m_parts.clear();
+    m_bounds = {32767, 32767, -1, -1};
     m_counts = {};
     m_counts.submitted = last - first;
     SetupCtx ctx{};
@@ -84,8 +85,7 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
         if (i < last) add_clipped(source, i, ctx, kernels);
     }
     const StageScope bin(FrameStage::bin, m_count);
-    for (std::uint32_t i = 0; i < m_count; ++i) add_to_tiles(i);
-    sort_into_tiles(source.frame);
+    sort_into_tiles();
 }
 
 /// Appends the triangles that are drawn.
@@ -93,14 +93,16 @@ SetupCounts Chunk::set_up(SetupCtx ctx, const KernelTable& kernels) {
     const std::size_t room = m_count + static_cast<std::size_t>(ctx.count) + 1;
     if (m_triangles.size() < room) {
         m_triangles.resize(room);
-        m_covered.resize(room);
+        m_places.resize(room);
     }
     SetupCounts counts{};
     ctx.triangles = m_triangles.data() + m_count;
-    ctx.covered = m_covered.data() + m_count;
+    ctx.places = m_places.data() + m_count;
     ctx.counts = &counts;
     kernels.setup(ctx);
     m_count += static_cast<std::size_t>(counts.drawn);
+    m_bounds = {std::min(m_bounds.x0, counts.bounds.x0), std::min(m_bounds.y0, counts.bounds.y0),
+                std::max(m_bounds.x1, counts.bounds.x1), std::max(m_bounds.y1, counts.bounds.y1)};
     return counts;
 }
 
@@ -143,59 +145,65 @@ void Chunk::add_clipped(const ChunkSource& source, std::size_t number, SetupCtx 
     }
 }
 
-void Chunk::add_to_tiles(std::uint32_t index) {
-    const PixelRect& box = m_triangles[index].box;
-    const TileEntry whole{m_covered[index], index, static_cast<std::uint8_t>(box.x0 % kTileSize),
-                          static_cast<std::uint8_t>(box.y0 % kTileSize)};
-    const std::int32_t x0 = box.x0 / kTileSize, x1 = box.x1 / kTileSize;
-    const std::int32_t y0 = box.y0 / kTileSize, y1 = box.y1 / kTileSize;
-    if (x0 == x1 && y0 == y1) {
-        add_entry(x0, y0, whole);
-        ++m_counts.binned;
-        return;
-    }
-    const std::size_t before = m_unsorted.size();
-    for (std::int32_t y = y0; y <= y1; ++y) {
-        for (std::int32_t x = x0; x <= x1; ++x) {
-            if (whole.covered != 0) {
-                const TileEntry part =
-                    tiny_part(whole, box.x0 - x * kTileSize, box.y0 - y * kTileSize);
-                if (part.covered != 0) add_entry(x, y, part);
-                continue;
-            }
-            TileTriangle seen;
-            if (tile_triangle(m_triangles[index], x, y, seen)) add_entry(x, y, whole);
-        }
-    }
-    if (m_unsorted.size() != before) ++m_counts.binned;
-}
-
-void Chunk::add_entry(std::int32_t x, std::int32_t y, const TileEntry& entry) {
-    m_unsorted.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), entry});
-}
-
-/// Counting sort over the rectangle of tiles that the chunk touches; stable, so order is kept.
-void Chunk::sort_into_tiles(FrameSize frame) {
-    std::int32_t x1 = -1, y1 = -1;
-    m_x0 = tiles(frame.width);
-    m_y0 = tiles(frame.height);
-    for (const PlacedEntry& e : m_unsorted) {
-        m_x0 = std::min<std::int32_t>(m_x0, e.x);
-        m_y0 = std::min<std::int32_t>(m_y0, e.y);
-        x1 = std::max<std::int32_t>(x1, e.x);
-        y1 = std::max<std::int32_t>(y1, e.y);
-    }
-    m_width = std::max(x1 - m_x0 + 1, 0);
-    m_height = std::max(y1 - m_y0 + 1, 0);
-    const auto place = [&](const PlacedEntry& e) {
-        return static_cast<std::size_t>((e.y - m_y0) * m_width + (e.x - m_x0));
-    };
+/// Counting sort over the rectangle of tiles that the chunk may touch; stable, so order is kept.
+void Chunk::sort_into_tiles() {
+    m_x0 = m_bounds.x0 / kTileSize;
+    m_y0 = m_bounds.y0 / kTileSize;
+    m_width = m_count == 0 ? 0 : m_bounds.x1 / kTileSize - m_x0 + 1;
+    m_height = m_count == 0 ? 0 : m_bounds.y1 / kTileSize - m_y0 + 1;
     // m_first[t + 1] first counts tile t, then runs through its entries, and ends as its end.
     m_first.assign(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height) + 2, 0);
-    for (const PlacedEntry& e : m_unsorted) ++m_first[place(e) + 2];
+    for (std::uint32_t i = 0; i < m_count; ++i) {
+        const SetupPlace& place = m_places[i];
+        if (place.tiles == 0) {
+            ++m_counts.binned;
+            ++m_first[tile_number(place.x / kTileSize, place.y / kTileSize) + 2];
+        } else {
+            add_parts(i);
+        }
+    }
+    for (const PlacedEntry& part : m_parts) ++m_first[part.tile + 2];
     for (std::size_t t = 2; t < m_first.size(); ++t) m_first[t] += m_first[t - 1];
-    m_entries.resize(m_unsorted.size());
-    for (const PlacedEntry& e : m_unsorted) m_entries[m_first[place(e) + 1]++] = e.entry;
+    m_entries.resize(m_first.back());
+    auto part = m_parts.begin();
+    for (std::uint32_t i = 0; i < m_count; ++i) {
+        const SetupPlace& place = m_places[i];
+        if (place.tiles == 0) {
+            const std::size_t tile = tile_number(place.x / kTileSize, place.y / kTileSize);
+            m_entries[m_first[tile + 1]++] = {place.covered, i,
+                                              static_cast<std::uint8_t>(place.x % kTileSize),
+                                              static_cast<std::uint8_t>(place.y % kTileSize)};
+            continue;
+        }
+        for (; part != m_parts.end() && part->entry.triangle == i; ++part)
+            m_entries[m_first[part->tile + 1]++] = part->entry;
+    }
+}
+
+std::size_t Chunk::tile_number(std::int32_t x, std::int32_t y) const {
+    return static_cast<std::size_t>((y - m_y0) * m_width + x - m_x0);
+}
+
+/// A triangle whose box lies in several tiles, in those that it touches.
+void Chunk::add_parts(std::uint32_t index) {
+    const SetupTriangle& triangle = m_triangles[index];
+    const PixelRect& box = triangle.box;
+    const TileEntry whole{m_places[index].covered, index, 0, 0};
+    const std::size_t before = m_parts.size();
+    for (std::int32_t y = box.y0 / kTileSize; y <= box.y1 / kTileSize; ++y) {
+        for (std::int32_t x = box.x0 / kTileSize; x <= box.x1 / kTileSize; ++x) {
+            TileEntry part = whole;
+            TileTriangle seen;
+            if (whole.covered != 0) {
+                part = tiny_part(whole, box.x0 - x * kTileSize, box.y0 - y * kTileSize);
+                if (part.covered == 0) continue;
+            } else if (!tile_triangle(triangle, x, y, seen)) {
+                continue;
+            }
+            m_parts.push_back({static_cast<std::uint32_t>(tile_number(x, y)), part});
+        }
+    }
+    if (m_parts.size() != before) ++m_counts.binned;
 }
 
 }  // namespace burnish

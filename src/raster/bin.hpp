@@ -53,22 +53,23 @@ class Chunk {
     SetupCounts set_up(SetupCtx ctx, const KernelTable& kernels);
     void add_clipped(const ChunkSource& source, std::size_t number, SetupCtx ctx,
                      const KernelTable& kernels);
-    void add_to_tiles(std::uint32_t index);
-    void add_entry(std::int32_t x, std::int32_t y, const TileEntry& entry);
-    void sort_into_tiles(FrameSize frame);
+    void sort_into_tiles();
+    void add_parts(std::uint32_t index);
+    [[nodiscard]] std::size_t tile_number(std::int32_t x, std::int32_t y) const;
 
     struct PlacedEntry {
-        std::uint16_t x, y;  ///< tile
+        std::uint32_t tile;
         TileEntry entry;
     };
 
     std::vector<SetupTriangle> m_triangles;  ///< the first m_count are in use
-    std::vector<std::uint64_t> m_covered;    ///< of each, as SetupCtx has it
+    std::vector<SetupPlace> m_places;        ///< of each
     std::size_t m_count = 0;
-    std::vector<PlacedEntry> m_unsorted;
+    PixelRect m_bounds{};
+    std::vector<PlacedEntry> m_parts;    ///< of triangles in several tiles, in order
     std::vector<std::uint32_t> m_first;  ///< per tile of the rectangle, one more at the end
     std::vector<TileEntry> m_entries;    ///< tile by tile
-    std::int32_t m_x0 = 0, m_y0 = 0, m_width = 0, m_height = 0;  ///< rectangle of touched tiles
+    std::int32_t m_x0 = 0, m_y0 = 0, m_width = 0, m_height = 0;  ///< rectangle of tiles
     BinCounts m_counts;
 };
 
