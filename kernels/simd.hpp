@@ -644,7 +644,7 @@ inline Columns transposed(const Columns& m) {
 }
 /// Columns of kLanes32 rows of four 32-bit numbers; row(k) says where row k is.
 template <class Row>
-Columns load_columns(Row&& row) {
+[[gnu::always_inline]] inline Columns load_columns(Row&& row) {
     Columns rows;
     for (int j = 0; j < 4; ++j) {
         const void* lanes[kParts];
