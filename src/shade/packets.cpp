@@ -68,11 +68,17 @@ void PacketShader::list_visible(const TileFragments& fragments, std::size_t firs
 }
 
 void PacketShader::shade_visible(const std::uint16_t* pixels, const KernelTable& kernels) {
+    const bool quads = m_draw.shading->quads;
     for (std::size_t k = 0; k + 1 < m_visible.size(); ++k) {
         if (m_interpolates && m_next_column == m_planes.size()) look_ahead(k);
         const auto [triangle, first] = m_visible[k];
         const auto count = static_cast<int>(m_visible[k + 1].first - first);
-        if (m_draw.shading->quads) {
+        if (!quads && m_packet.count + count < kPacketSize) {  // as append does it
+            if (m_packet.count == 0) m_packet.pixels = pixels + first;
+            m_copied = false;
+            if (m_interpolates) ++m_next_column;
+            add_run(*triangle, count);
+        } else if (quads) {
             PixelMask mask;
             mask_pixels(pixels + first, count, mask);
             list_quads(mask, m_list);
@@ -155,15 +161,23 @@ void PacketShader::take_column(const SetupTriangle& triangle) {
     ++m_next_column;
 }
 
-void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
-                          const KernelTable& kernels) {
+void PacketShader::add_run(const SetupTriangle& triangle, int count) {
+    const int first = m_packet.count;
     const std::int32_t offset_x = m_tile.left - triangle.reference_x,
                        offset_y = m_tile.top - triangle.reference_y;
+    m_packet.count += count;
+    if (m_interpolates) m_runs.push_back({first, count, offset_x, offset_y});
+    if (!m_needs_depth) return;
+    m_depth_runs.push_back({triangle.z, triangle.zx, triangle.zy, triangle.z_low, triangle.z_high,
+                            first, count, offset_x, offset_y});
+}
+
+void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
+                          const KernelTable& kernels) {
     if (m_interpolates) take_column(triangle);
     while (fragments.count > 0) {
         const int first = m_packet.count;
         const int count = std::min(fragments.count, kPacketSize - first);
-        if (m_interpolates) m_runs.push_back({first, count, offset_x, offset_y});
         m_copied = fragments.stored != nullptr;
         if (m_copied) {
             m_packet.pixels = m_pixels.data();
@@ -173,13 +187,9 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         } else if (first == 0) {
             m_packet.pixels = fragments.shaded;
         }
-        if (m_needs_depth) {
-            m_depth_runs.push_back({triangle.z, triangle.zx, triangle.zy, triangle.z_low,
-                                    triangle.z_high, first, count, offset_x, offset_y});
-        }
+        add_run(triangle, count);
         fragments.shaded += count;
         fragments.count -= count;
-        m_packet.count += count;
         if (m_packet.count < kPacketSize) continue;
         shade_packet(kernels);
         if (m_interpolates && fragments.count > 0) --m_first_column;

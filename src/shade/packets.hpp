@@ -64,6 +64,7 @@ class PacketShader {
         const std::uint16_t* stored;
         int count;
     };
+    void add_run(const SetupTriangle& triangle, int count);
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
     void shade_packet(const KernelTable& kernels);
     AttributesCtx runs(const Shading& shading, const KernelTable& kernels);
