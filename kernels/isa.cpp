@@ -2,6 +2,8 @@
 ///   BURNISH_ISA    name of the namespace and of the table, e.g. avx2
 ///   BURNISH_ARCH   xsimd's architecture, e.g. avx2
 ///   BURNISH_TABLE  the one function that leaves this file, e.g. table_avx2
+#include <utility>
+
 #include "kernels/kernel_table.hpp"
 #include "kernels/log2_steps.hpp"
 #include "kernels/simd.hpp"
@@ -21,6 +23,8 @@ namespace {
 #include "kernels/levels.inl"          // after fetch.inl, whose AxisAddress it uses
 #include "kernels/light_vertices.inl"  // after interpolate.inl, whose vectors it uses
 #include "kernels/rasterize.inl"
+#include "kernels/rasterize_tiny.inl"
+#include "kernels/setup.inl"
 #include "kernels/texture_shader.inl"
 #include "kernels/transform.inl"
 #include "kernels/words.inl"

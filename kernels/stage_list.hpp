@@ -11,7 +11,9 @@
 #define BURNISH_TILE_STAGES(X)          \
     X(transform, TransformCtx)          \
     X(light_vertices, LightVerticesCtx) \
+    X(setup, SetupCtx)                  \
     X(rasterize, RasterizeCtx)          \
+    X(rasterize_tiny, RasterizeTinyCtx) \
     X(cover, CoverCtx)                  \
     X(collect, CollectCtx)              \
     X(attribute_planes, AttributePlanesCtx)
@@ -44,6 +46,7 @@
     X(level_address, LevelAddressCtx)     \
     X(fetch_hilo, FetchHiloCtx)           \
     X(fetch_words, FetchWordsCtx)         \
+    X(fetch_quartet, FetchQuartetCtx)     \
     X(blend_levels, BlendLevelsCtx)       \
     X(hilo, HiloCtx)                      \
     X(portion_nine_bit, PortionCtx)       \

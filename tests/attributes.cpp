@@ -137,7 +137,7 @@ class Measure {
         const FrameSize size{m_scene.scene.width, m_scene.scene.height};
         Chunk chunk;
         chunk.fill({m_draw.mesh(), 0, Facing::any, m_frame.viewport, size}, 0,
-                   m_draw.triangle_count());
+                   m_draw.triangle_count(), m_kernels);
         const DepthRule rule{1, 0, 0, 1};
         TileVisibility tile;
         for (std::int32_t y = 0; y * kTileSize < size.height; ++y) {
