@@ -33,7 +33,7 @@ struct PixelMask {
     std::array<std::uint64_t, kTileBlocks> word;
 };
 
-/// Visible fragments of a tile, triangle after triangle.
+/// Visible fragments of a tile, triangle after triangle, draw after draw.
 struct TileFragments {
     std::span<const SetupTriangle* const> triangles;
     const std::uint32_t* first;   ///< of each triangle's fragments, and the end; many have none

@@ -135,6 +135,10 @@ void attribute_planes(const Shading& shading, const ScreenMesh& mesh,
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const SetupTriangle& t = *triangles[k];
         const std::array<std::uint32_t, 3> vertex = corner_vertices(mesh, t);
+        for (const std::uint32_t v : vertex) {  // those of a tile lie far apart in the mesh
+            __builtin_prefetch(&mesh.homogeneous[v]);
+            __builtin_prefetch(shading.rows.row(v));
+        }
         scratch.triangles[k] = {{t.x[0], t.x[1], t.x[2]},
                                 {t.y[0], t.y[1], t.y[2]},
                                 {vertex[0], vertex[1], vertex[2]},

@@ -32,36 +32,61 @@ void PacketShader::begin(const ShadedTile& tile) {
 
 void PacketShader::shade(const TileFragments& fragments, std::span<const ShadedDraw> draws,
                          const KernelTable& kernels) {
-    const std::uint16_t* pixels = fragments.pixels;
-    const std::size_t end = fragments.triangles.size();
-    for (std::size_t k = 0; k < end;) {
-        int count = fragments.size(k);
-        if (count == 0) {
-            ++k;
-            continue;
+    const auto& triangles = fragments.triangles;
+    for (std::size_t first = 0, end = 0; first < triangles.size(); first = end) {
+        const std::uint32_t draw = triangles[first]->draw;
+        const auto same = [&](const SetupTriangle* t) { return t->draw == draw; };
+        end = static_cast<std::size_t>(
+            std::partition_point(triangles.begin() + static_cast<std::ptrdiff_t>(first),
+                                 triangles.end(), same) -
+            triangles.begin());
+        const std::uint32_t pixel = fragments.first[first];
+        const auto count = static_cast<int>(fragments.first[end] - pixel);
+        if (count == 0) continue;
+        start_draw(draws[draw], kernels);
+        if (m_interpolates || m_needs_depth) {
+            list_visible(fragments, first, end);
+            shade_visible(fragments.pixels, kernels);
+        } else {  // then all triangles of the draw are one
+            append(*triangles[first], {fragments.pixels + pixel, nullptr, count}, kernels);
         }
-        const SetupTriangle& triangle = *fragments.triangles[k];
-        start_draw(draws[triangle.draw], kernels);
-        if (m_interpolates && m_next_column == m_planes.size()) look_ahead(fragments, k);
-        ++k;
-        if (m_draw.shading->quads) {
-            PixelMask mask;
-            mask_pixels(pixels, count, mask);
-            list_quads(mask, m_list);
-            append(triangle, {m_list.shaded, m_list.stored, m_list.count}, kernels);
-        } else {
-            if (!m_interpolates && !m_needs_depth) {  // then all triangles of the draw are one
-                for (; k < end; ++k) {
-                    if (fragments.size(k) == 0) continue;
-                    if (fragments.triangles[k]->draw != triangle.draw) break;
-                    count += fragments.size(k);
-                }
-            }
-            append(triangle, {pixels, nullptr, count}, kernels);
-        }
-        pixels += count;
     }
     shade_packet(kernels);
+}
+
+/// Whether a triangle is visible is hard to predict, so every one is written.
+void PacketShader::list_visible(const TileFragments& fragments, std::size_t first,
+                                std::size_t end) {
+    m_visible.resize(end - first + 1);
+    std::size_t visible = 0;
+    for (std::size_t k = first; k < end; ++k) {
+        m_visible[visible] = {fragments.triangles[k], fragments.first[k]};
+        visible += fragments.first[k + 1] != fragments.first[k] ? 1 : 0;
+    }
+    m_visible[visible] = {nullptr, fragments.first[end]};
+    m_visible.resize(visible + 1);
+}
+
+void PacketShader::shade_visible(const std::uint16_t* pixels, const KernelTable& kernels) {
+    const bool quads = m_draw.shading->quads;
+    for (std::size_t k = 0; k + 1 < m_visible.size(); ++k) {
+        if (m_interpolates && m_next_column == m_planes.size()) look_ahead(k);
+        const auto [triangle, first] = m_visible[k];
+        const auto count = static_cast<int>(m_visible[k + 1].first - first);
+        if (!quads && m_packet.count + count < kPacketSize) {  // as append does it
+            if (m_packet.count == 0) m_packet.pixels = pixels + first;
+            m_copied = false;
+            if (m_interpolates) ++m_next_column;
+            add_run(*triangle, count);
+        } else if (quads) {
+            PixelMask mask;
+            mask_pixels(pixels + first, count, mask);
+            list_quads(mask, m_list);
+            append(*triangle, {m_list.shaded, m_list.stored, m_list.count}, kernels);
+        } else {
+            append(*triangle, {pixels + first, nullptr, count}, kernels);
+        }
+    }
 }
 
 void PacketShader::add(const SetupTriangle& triangle, const PixelMask& pixels,
@@ -111,14 +136,13 @@ void PacketShader::forget_columns() {
     m_first_column = m_next_column = 0;
 }
 
-/// Columns for the draw's visible triangles from number `first` on, as many as there is room for.
-void PacketShader::look_ahead(const TileFragments& fragments, std::size_t first) {
+/// Columns for the visible triangles from number `first` on, as many as there is room for.
+void PacketShader::look_ahead(std::size_t first) {
     make_room();
-    const std::uint32_t draw = fragments.triangles[first]->draw;
-    for (std::size_t k = first; k < fragments.triangles.size() && !m_planes.full(); ++k) {
-        if (fragments.size(k) == 0) continue;
-        if (fragments.triangles[k]->draw != draw) return;
-        m_planes.push(*fragments.triangles[k]);
+    for (std::size_t k = first; k + 1 < m_visible.size() && !m_planes.full(); ++k) {
+        const SetupTriangle& triangle = *m_visible[k].triangle;
+        __builtin_prefetch(&m_draw.mesh.indices[std::size_t{3} * triangle.number]);
+        m_planes.push(triangle);
     }
 }
 
@@ -137,15 +161,23 @@ void PacketShader::take_column(const SetupTriangle& triangle) {
     ++m_next_column;
 }
 
-void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
-                          const KernelTable& kernels) {
+void PacketShader::add_run(const SetupTriangle& triangle, int count) {
+    const int first = m_packet.count;
     const std::int32_t offset_x = m_tile.left - triangle.reference_x,
                        offset_y = m_tile.top - triangle.reference_y;
+    m_packet.count += count;
+    if (m_interpolates) m_runs.push_back({first, count, offset_x, offset_y});
+    if (!m_needs_depth) return;
+    m_depth_runs.push_back({triangle.z, triangle.zx, triangle.zy, triangle.z_low, triangle.z_high,
+                            first, count, offset_x, offset_y});
+}
+
+void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
+                          const KernelTable& kernels) {
     if (m_interpolates) take_column(triangle);
     while (fragments.count > 0) {
         const int first = m_packet.count;
         const int count = std::min(fragments.count, kPacketSize - first);
-        if (m_interpolates) m_runs.push_back({first, count, offset_x, offset_y});
         m_copied = fragments.stored != nullptr;
         if (m_copied) {
             m_packet.pixels = m_pixels.data();
@@ -155,13 +187,9 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         } else if (first == 0) {
             m_packet.pixels = fragments.shaded;
         }
-        if (m_needs_depth) {
-            m_depth_runs.push_back({triangle.z, triangle.zx, triangle.zy, triangle.z_low,
-                                    triangle.z_high, first, count, offset_x, offset_y});
-        }
+        add_run(triangle, count);
         fragments.shaded += count;
         fragments.count -= count;
-        m_packet.count += count;
         if (m_packet.count < kPacketSize) continue;
         shade_packet(kernels);
         if (m_interpolates && fragments.count > 0) --m_first_column;

@@ -64,10 +64,13 @@ class PacketShader {
         const std::uint16_t* stored;
         int count;
     };
+    void add_run(const SetupTriangle& triangle, int count);
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
     void shade_packet(const KernelTable& kernels);
     AttributesCtx runs(const Shading& shading, const KernelTable& kernels);
-    void look_ahead(const TileFragments& fragments, std::size_t first);
+    void list_visible(const TileFragments& fragments, std::size_t first, std::size_t end);
+    void shade_visible(const std::uint16_t* pixels, const KernelTable& kernels);
+    void look_ahead(std::size_t first);
     void take_column(const SetupTriangle& triangle);
     void make_room();
     void forget_columns();
@@ -88,6 +91,12 @@ class PacketShader {
     bool m_copied =
         false;  ///< the packet's pixels are m_pixels, and m_stored says which are stored
     AlignedVector<std::uint16_t> m_pixels, m_stored;
+    /// A triangle with fragments, the first of them; the next one's is its end.
+    struct Visible {
+        const SetupTriangle* triangle;
+        std::uint32_t first;
+    };
+    std::vector<Visible> m_visible;  ///< of the draw, and the end
     PixelMask m_pending;
     PixelList m_list;
     std::vector<Run> m_runs;
