@@ -3,14 +3,12 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <burnish/materials.hpp>
 #include <burnish/renderer.hpp>
-#include <burnish/shapes.hpp>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/frame_scenes.hpp"
 #include "bench/run_benchmarks.hpp"
 #include "core/cpu.hpp"
 #include "geometry/camera.hpp"
@@ -23,56 +21,9 @@ namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;
 
-/// S1c: an ellipsoid of 20,448 triangles over 60 % of the frame, the modified model with three
-/// maps, tiled 4 x 2 so that a texel is about a pixel: what two combiners and three units did.
-Scene ellipsoid_scene() {
-    MeshData data = shapes::sphere(144, 72, {1.65F, 1.10F, 1.10F});
-    for (glm::vec2& uv : data.uvs) uv *= glm::vec2(4.0F, 2.0F);
-    Scene scene;
-    scene.width = kWidth;
-    scene.height = kHeight;
-    scene.machine = machine_profile("geforce256");
-    scene.machine.texture_units = 3;
-    scene.lights.push_back({.position = {0.3F, 0.8F, 0.5F}});
-    Material material = brushed_steel();
-    material.ks = glm::vec3(1.0F);
-    material.kd = glm::vec3(0.0F);
-    scene.objects.push_back(
-        {Mesh(data), std::make_shared<Material>(material), glm::mat4(1.0F), {.cull = Cull::back}});
-    return scene;
-}
-
-/// S8: eight layers over the whole frame, back to front, one texture of about a texel per pixel.
-Scene layers_scene(const std::optional<Blend>& blend) {
-    Scene scene;
-    scene.width = kWidth;
-    scene.height = kHeight;
-    scene.machine = machine_profile("nv2a");
-    Image8 image(512, 512);
-    for (int y = 0; y < 512; ++y)
-        for (int x = 0; x < 512; ++x)
-            for (int c = 0; c < 4; ++c)
-                image.at(x, y)[c] = static_cast<std::uint8_t>(x * (c + 3) + y * 7 + x * y / 16);
-    using namespace combine;
-    ProgramBuilder p;
-    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(tex(0)));
-    p.out_alpha(alpha(raw(tex(0))));
-    auto material = std::make_shared<Material>();
-    material->program.emplace();
-    material->program->combiners = p.build();
-    material->program->units = {std::make_shared<Texture>(image, Sampler{})};
-    for (int layer = 0; layer < 8; ++layer) {
-        RawVertices raw{Space::window, Topology::quads, {}};
-        for (const auto& [x, y] :
-             {std::pair{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}}) {
-            RawVertex v;
-            v.position = {x * kWidth, y * kHeight, 0.9F - 0.1F * static_cast<float>(layer), 1.0F};
-            v.uv[0] = {x * 4.0F, y * 2.0F + 0.1F * static_cast<float>(layer), 0.0F, 1.0F};
-            raw.vertices.push_back(v);
-        }
-        scene.objects.push_back({std::move(raw), material, glm::mat4(1.0F), {.blend = blend}});
-    }
-    return scene;
+/// S1c: 20,448 triangles.
+Scene s1c() {
+    return ellipsoid_scene(144, 72, kWidth, kHeight);
 }
 
 struct TimedScene {
@@ -84,14 +35,14 @@ struct TimedScene {
 };
 const TimedScene& timed_scene(const std::string& name) {
     if (name == "S8_blend") {
-        static const TimedScene scene(layers_scene(Blend::alpha()));
+        static const TimedScene scene(layers_scene({.blend = Blend::alpha()}, kWidth, kHeight));
         return scene;
     }
     if (name == "S8_opaque") {
-        static const TimedScene scene(layers_scene({}));
+        static const TimedScene scene(layers_scene({}, kWidth, kHeight));
         return scene;
     }
-    static const TimedScene scene(ellipsoid_scene());
+    static const TimedScene scene(s1c());
     return scene;
 }
 
@@ -128,7 +79,7 @@ void frame(benchmark::State& state, const std::string& name, const std::string& 
 /// The ellipsoid's vertices on the screen, for the stages after `transform`.
 struct Geometry {
     Geometry() {
-        const Scene scene = ellipsoid_scene();
+        const Scene scene = s1c();
         const Mesh& mesh = std::get<Mesh>(scene.objects[0].geometry);
         const View view = make_view(scene.camera, kWidth, kHeight);
         viewport = make_viewport(scene.machine, kWidth, kHeight);
@@ -160,38 +111,23 @@ const Geometry& geometry() {
     return g;
 }
 
-void setup(benchmark::State& state) {
-    const Geometry& g = geometry();
-    const auto triangle_at = [&](std::size_t i, SetupTriangle& out) {
-        return setup_triangle(g.screen[g.indices[i]], g.screen[g.indices[i + 1]],
-                              g.screen[g.indices[i + 2]], Facing::any, {kWidth, kHeight}, out);
-    };
-    for (auto _ : state) {
-        for (std::size_t i = 0; i < g.indices.size(); i += 3) {
-            SetupTriangle triangle{};
-            benchmark::DoNotOptimize(triangle_at(i, triangle));
-            benchmark::DoNotOptimize(triangle);
-        }
-    }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.indices.size() / 3));
-}
-
 /// All chunks of the mesh, as one worker fills them.
-std::vector<Chunk> bin_all(const Geometry& g, std::vector<Chunk> chunks = {}) {
+std::vector<Chunk> bin_all(const Geometry& g, const KernelTable& kernels,
+                           std::vector<Chunk> chunks = {}) {
     const FrameSize size{kWidth, kHeight};
     const std::size_t count = g.indices.size() / 3, step = chunk_size(size, count);
     chunks.resize((count + step - 1) / step);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         chunks[i].fill({g.mesh(), 0, Facing::any, g.viewport, size}, i * step,
-                       std::min(count, (i + 1) * step));
+                       std::min(count, (i + 1) * step), kernels);
     }
     return chunks;
 }
 
-void bin(benchmark::State& state) {
+void bin(benchmark::State& state, const KernelTable* kernels) {
     const Geometry& g = geometry();
-    std::vector<Chunk> chunks = bin_all(g);
-    for (auto _ : state) chunks = bin_all(g, std::move(chunks));
+    std::vector<Chunk> chunks = bin_all(g, *kernels);
+    for (auto _ : state) chunks = bin_all(g, *kernels, std::move(chunks));
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.indices.size() / 3));
 }
 
@@ -215,7 +151,7 @@ std::uint64_t draw_tiles(const std::vector<Chunk>& chunks, const KernelTable& ke
 }
 
 void tile(benchmark::State& state, const KernelTable* kernels) {
-    const std::vector<Chunk> chunks = bin_all(geometry());
+    const std::vector<Chunk> chunks = bin_all(geometry(), *kernels);
     TileVisibility visibility;
     if (draw_tiles(chunks, *kernels, visibility, 1) !=
         draw_tiles(chunks, table_reference(), visibility, 1)) {
@@ -242,10 +178,10 @@ void register_frame(const std::string& scene, const std::string& isa, int thread
 }
 
 void register_all() {
-    benchmark::RegisterBenchmark("raster/setup", setup)->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark("raster/bin", bin)->Unit(benchmark::kMicrosecond);
     for (const KernelTable* table : available_tables()) {
         const std::string isa = table->isa;
+        benchmark::RegisterBenchmark(("raster/bin/" + isa).c_str(), bin, table)
+            ->Unit(benchmark::kMicrosecond);
         benchmark::RegisterBenchmark(("raster/tiles/" + isa).c_str(), tile, table)
             ->Unit(benchmark::kMicrosecond);
         if (table == &table_reference()) continue;

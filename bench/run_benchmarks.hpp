@@ -50,6 +50,11 @@ inline int run_benchmarks(int argc, char** argv) {
         isas += (isas.empty() ? "" : ", ") + std::string(table->isa);
     benchmark::AddCustomContext("isa", isas);
     benchmark::AddCustomContext("cpu", cpu_name());
+#if defined(__clang__)
+    benchmark::AddCustomContext("compiler", __VERSION__);
+#else
+    benchmark::AddCustomContext("compiler", "GCC " __VERSION__);
+#endif
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     return 0;

@@ -184,20 +184,10 @@ struct StoreWide {
     static float to_float(std::int16_t v) { return static_cast<float>(v) / 16384.0F; }
 };
 
-struct LaneNumbers {
-    alignas(64) std::int16_t number[kLanes];
-};
-constexpr LaneNumbers make_lane_numbers() {
-    LaneNumbers lanes{};
-    for (int i = 0; i < kLanes; ++i) lanes.number[i] = static_cast<std::int16_t>(i);
-    return lanes;
-}
-constexpr LaneNumbers kLaneNumbers = make_lane_numbers();
-
 /// kLanes pixels one after the other, as where a triangle covers whole blocks.
 inline bool are_consecutive(const std::uint16_t* pixels) {
     const auto* const p = reinterpret_cast<const std::int16_t*>(pixels);
-    return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.number));
+    return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.of16));
 }
 
 /// Pixels of kLanes fragments, four bytes each: zipping keeps to the lanes, so fragments

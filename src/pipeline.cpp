@@ -94,7 +94,7 @@ struct Renderer::State {
                    bool first_round, bool last_round);
     std::size_t first_chunk(std::int32_t x, std::int32_t y) const;
     void shade_visible(Worker& worker);
-    void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const std::uint32_t> triangles);
+    void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const TileEntry> entries);
     float* saved_depth(std::int32_t x, std::int32_t y);
     OutputTile output_of(Worker& worker) const;
 
@@ -291,7 +291,7 @@ void Renderer::State::bin(FrameStats& stats) {
             const ChunkRange& range = ranges[first + i];
             const Draw& draw = *draws[range.draw];
             chunks[i]->fill({draw.mesh(), range.draw, draw.facing, frame.viewport, size},
-                            range.first, range.last);
+                            range.first, range.last, kernels);
             bytes.fetch_add(chunks[i]->bytes(), std::memory_order_relaxed);
         }
     });
@@ -376,12 +376,12 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     }
     worker.shader.begin({visibility.left(), visibility.top(), output_of(worker)});
     for (const auto& chunk : binned.subspan(first_chunk(x, y))) {
-        const std::span<const std::uint32_t> triangles = chunk->tile(x, y);
-        if (triangles.empty()) continue;
-        if (draws[chunk->triangles()[triangles.front()].draw]->ordered) {
+        const std::span<const TileEntry> entries = chunk->tile(x, y);
+        if (entries.empty()) continue;
+        if (draws[chunk->triangles()[entries.front().triangle].draw]->ordered) {
             shade_visible(worker);
             visibility.forget();
-            draw_ordered(worker, *chunk, triangles);
+            draw_ordered(worker, *chunk, entries);
         } else {
             worker.shader.flush(kernels);
             const StageScope scope(FrameStage::coverage, 0, worker.clock);
@@ -404,8 +404,8 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
 /// The chunk from which on a tile has to be drawn: a triangle of its covers all that was before.
 std::size_t Renderer::State::first_chunk(std::int32_t x, std::int32_t y) const {
     for (std::size_t i = chunk_count; i-- > 1;) {
-        for (const std::uint32_t k : chunks[i]->tile(x, y)) {
-            const SetupTriangle& triangle = chunks[i]->triangles()[k];
+        for (const TileEntry& entry : chunks[i]->tile(x, y)) {
+            const SetupTriangle& triangle = chunks[i]->triangles()[entry.triangle];
             if (!overwrites[triangle.draw]) break;
             if (covers_tile(triangle, x, y, size)) return i;
         }
@@ -440,11 +440,12 @@ void Renderer::State::shade_visible(Worker& worker) {
 
 /// The triangles of a chunk in this tile, one after the other.
 void Renderer::State::draw_ordered(Worker& worker, const Chunk& chunk,
-                                   std::span<const std::uint32_t> triangles) {
+                                   std::span<const TileEntry> entries) {
     PixelMask passed;
-    worker.shader.start_draw(shaded_draws[chunk.triangles()[triangles.front()].draw], kernels);
-    for (const std::uint32_t i : triangles) {
-        const SetupTriangle& triangle = chunk.triangles()[i];
+    worker.shader.start_draw(shaded_draws[chunk.triangles()[entries.front().triangle].draw],
+                             kernels);
+    for (const TileEntry& entry : entries) {
+        const SetupTriangle& triangle = chunk.triangles()[entry.triangle];
         {
             const StageScope scope(FrameStage::coverage, 0, worker.clock);
             if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed))

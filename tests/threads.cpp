@@ -235,8 +235,8 @@ TEST(WorkOrder, HeavyPiecesComeFirst) {
 }
 
 // Two workers and five pieces. To whoever is free: 1 1, 1 1, then 4 alone: 2 + 4. The long one
-// first: 4 beside 1 + 1 + 1 + 1. In halves {1, 1} and {1, 1, 4}: the first worker is done after 2
-// as the second one is, and helps with nothing: the second took its last piece at 2.
+// first: 4 beside 1 + 1 + 1 + 1. In halves {1, 1} and {1, 1, 4}: after 2 one of them
+// begins the 4.
 TEST(WorkOrder, FinishingTimesOfASmallSchedule) {
     const std::vector<double> cost{1.0, 1.0, 1.0, 1.0, 4.0};
     EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 5}, 2), 6.0);
