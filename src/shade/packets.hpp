@@ -65,6 +65,10 @@ class PacketShader {
         int count;
     };
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
+    /// Whether some of the packet's fragments are shaded and not stored.
+    [[nodiscard]] bool stores_apart() const {
+        return m_copied && (m_draw.output->late_depth || m_draw.shading->quads);
+    }
     void shade_packet(const KernelTable& kernels);
     AttributesCtx runs(const Shading& shading, const KernelTable& kernels);
     void look_ahead(const TileFragments& fragments, std::size_t first);
@@ -86,7 +90,7 @@ class PacketShader {
     bool m_interpolates = false;  ///< the draw needs runs
     bool m_needs_depth = false;   ///< and those of the depth
     bool m_copied =
-        false;  ///< the packet's pixels are m_pixels, and m_stored says which are stored
+        false;  ///< the packet's pixels are m_pixels; m_stored, if they are stored apart
     AlignedVector<std::uint16_t> m_pixels, m_stored;
     PixelMask m_pending;
     PixelList m_list;
