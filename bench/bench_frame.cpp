@@ -138,7 +138,7 @@ std::uint64_t draw_tiles(const std::vector<Chunk>& chunks, const KernelTable& ke
     const FrameSize size{kWidth, kHeight};
     for (std::int32_t y = 0; y * kTileSize < kHeight; ++y) {
         for (std::int32_t x = 0; x * kTileSize < kWidth; ++x) {
-            tile.begin(x, y, size, nullptr);
+            tile.begin(x, y, size, nullptr, kernels);
             for (const Chunk& chunk : chunks) tile.draw(chunk, {&rule, 1}, kernels);
             for (int i = 0; hash != 0 && i < kTilePixels; ++i) {
                 std::uint32_t bits = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -319,6 +320,52 @@ void add_rasterize() {
                 for (auto _ : state) {
                     tile.draw(table, triangles);
                     benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+void add_clear() {
+    add(
+        "clear_words", kTilePixels,
+        [](const KernelTable& table) -> std::string {
+            AlignedVector<std::uint32_t> words(kTilePixels);
+            table.clear_words({words.data(), 3, kTilePixels});
+            return std::count(words.begin(), words.end(), 3U) == kTilePixels ? "" : "words";
+        },
+        [](const KernelTable& table, benchmark::State& state) {
+            AlignedVector<std::uint32_t> words(kTilePixels);
+            for (auto _ : state) {
+                table.clear_words({words.data(), 3, kTilePixels});
+                benchmark::ClobberMemory();
+            }
+        });
+}
+
+/// The bits that every triangle leaves, one after the other.
+void add_cover() {
+    for (const int side : {4, 16, 64}) {
+        const std::vector<TileTriangle> triangles = squares(side);
+        const auto draw = [=](const KernelTable& table, Tile& tile) {
+            std::uint64_t hash = 0, blocks = 0;
+            std::uint64_t passed[kTileBlocks];
+            for (const TileTriangle& t : triangles) {
+                table.cover({&t, tile.depth.data(), tile.block_far.data(), passed, &blocks});
+                for (std::uint64_t rest = blocks; rest != 0; rest &= rest - 1)
+                    hash = hash * 0x100000001b3U + passed[std::countr_zero(rest)];
+            }
+            return hash;
+        };
+        add(
+            "cover/squares_" + std::to_string(side), kTilePixels,
+            [=](const KernelTable& table) -> std::string {
+                Tile got, want;
+                return draw(table, got) == draw(table_reference(), want) ? "" : "pixels";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                for (auto _ : state) {
+                    Tile tile;
+                    benchmark::DoNotOptimize(draw(table, tile));
                 }
             });
     }
@@ -939,6 +986,8 @@ int main(int argc, char** argv) {
     add_light_vertices();
     add_rasterize();
     add_rasterize_depths();
+    add_cover();
+    add_clear();
     add_rasterize_tiny();
     add_collect();
     add_attribute_planes();

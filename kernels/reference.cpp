@@ -220,6 +220,11 @@ bool passes(const Rule& rule, float depth, float old) {
                          : rule.pass_equal != 0;
 }
 
+void clear_words(const ClearWordsCtx& ctx) noexcept {
+    for (int i = 0; i < ctx.count; ++i)
+        std::memcpy(static_cast<std::uint8_t*>(ctx.to) + 4 * i, &ctx.value, 4);
+}
+
 void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int k = 0; k < ctx.count; ++k) {
         const TileTriangle& t = ctx.triangles[k];
@@ -1380,6 +1385,7 @@ const KernelTable& table_reference() noexcept {
         .transform = transform,
         .light_vertices = light_vertices,
         .setup = setup,
+        .clear_words = clear_words,
         .rasterize = rasterize,
         .rasterize_tiny = rasterize_tiny,
         .cover = cover,

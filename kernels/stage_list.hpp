@@ -12,6 +12,7 @@
     X(transform, TransformCtx)          \
     X(light_vertices, LightVerticesCtx) \
     X(setup, SetupCtx)                  \
+    X(clear_words, ClearWordsCtx)       \
     X(rasterize, RasterizeCtx)          \
     X(rasterize_tiny, RasterizeTinyCtx) \
     X(cover, CoverCtx)                  \

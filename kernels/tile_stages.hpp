@@ -238,6 +238,13 @@ struct TileTriangle {
     std::uint8_t depth_write;                          ///< 1: a passing fragment replaces the depth
 };
 
+/// Sets words, as a tile's depths and ids are before anything is drawn.
+struct ClearWordsCtx {
+    void* to;  ///< out, `count` words
+    std::uint32_t value;
+    int count;  ///< a multiple of 16
+};
+
 /// Coverage and depth of `count` triangles, in order. Per covered pixel
 ///   depth = clamp((z + dx * zx) + dy * zy, z_low, z_high), dx = float(x + offset_x), dy likewise
 /// in float, no operation fused; where the depth test passes, `id` and (with depth_write) `depth`

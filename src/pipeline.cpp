@@ -367,7 +367,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     }
     {
         const StageScope scope(FrameStage::coverage, 0, worker.clock);
-        visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
+        visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y), kernels);
     }
     worker.has_background = false;
     if (!first_round && !depth_alone) {

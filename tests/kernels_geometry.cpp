@@ -330,6 +330,14 @@ TEST_P(KernelTest, RasterizeOneByOneEqualsAllAtOnce) {
     }
 }
 
+TEST_P(KernelTest, ClearedWordsAndNoOthers) {
+    AlignedVector<std::uint32_t> words(kTilePixels + 16, 7U);
+    table().clear_words({words.data() + 16, 0x3f800001U, kTilePixels - 16});
+    for (std::size_t i = 0; i < words.size(); ++i)
+        ASSERT_EQ(words[i], i < 16 || i >= kTilePixels ? 7U : 0x3f800001U)
+            << name("clear_words") << ", word " << i;
+}
+
 // Depths alone: those that are left beside ids.
 TEST_P(KernelTest, RasterizeWithoutIds) {
     for (unsigned seed = 0; seed < 1500; ++seed) {

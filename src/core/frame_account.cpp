@@ -20,6 +20,7 @@ constexpr Family kFamilies[] = {
     {"transform", FrameStage::transform, true},
     {"light_vertices", FrameStage::transform},
     {"setup", FrameStage::setup},
+    {"clear_words", FrameStage::coverage},
     {"rasterize", FrameStage::coverage, true},
     {"cover", FrameStage::coverage, true},
     {"collect", FrameStage::coverage},

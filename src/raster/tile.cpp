@@ -1,6 +1,7 @@
 #include "raster/tile.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace burnish {
 
@@ -24,14 +25,16 @@ TileVisibility::TileVisibility()
       m_id(kTilePixels + 1),
       m_pixels(kTilePixels + kPixelSlack) {}
 
-void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth) {
+void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth,
+                           const KernelTable& kernels) {
     m_tile_x = x;
     m_tile_y = y;
     m_frame = frame;
     m_triangles.clear();
     m_drawn.clear();
     if (depth == nullptr) {
-        std::fill(m_depth.begin(), m_depth.end(), 1.0F);
+        constexpr auto kFar = std::bit_cast<std::uint32_t>(1.0F);
+        kernels.clear_words({m_depth.data(), kFar, kTilePixels});
         std::fill(m_block_far.begin(), m_block_far.end(), 1.0F);
         return;
     }
@@ -44,7 +47,7 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
-    if (!shows_anything()) std::fill(m_id.begin(), m_id.end(), kNoTriangle);
+    if (!shows_anything()) kernels.clear_words({m_id.data(), kNoTriangle, kTilePixels});
     draw_entries(chunk, rules, kernels, m_id.data());
 }
 
@@ -129,6 +132,7 @@ void TileVisibility::draw_others(const Chunk& chunk, std::span<const TileEntry> 
 void TileVisibility::hide_outside() {
     const std::int32_t columns = std::min(m_frame.width - left(), kTileSize);
     const std::int32_t rows = std::min(m_frame.height - top(), kTileSize);
+    if (columns == kTileSize && rows == kTileSize) return;
     for (std::int32_t y = 0; y < kTileSize; ++y) {
         for (std::int32_t x = y < rows ? columns : 0; x < kTileSize; ++x) {
             m_id[tile_index(x, y)] = kNoTriangle;

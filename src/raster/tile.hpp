@@ -25,7 +25,8 @@ class TileVisibility {
 
     /// Starts tile (x, y): nothing visible, depth 1 everywhere or, if `depth` is not null, as saved
     /// by an earlier round (kTilePixels floats).
-    void begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth);
+    void begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth,
+               const KernelTable& kernels);
 
     /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
     void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);

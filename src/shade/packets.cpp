@@ -182,7 +182,7 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         if (m_copied) {
             m_packet.pixels = m_pixels.data();
             std::copy_n(fragments.shaded, count, m_pixels.data() + first);
-            std::copy_n(fragments.stored, count, m_stored.data() + first);
+            if (stores_apart()) std::copy_n(fragments.stored, count, m_stored.data() + first);
             fragments.stored += count;
         } else if (first == 0) {
             m_packet.pixels = fragments.shaded;
@@ -201,7 +201,7 @@ void PacketShader::shade_packet(const KernelTable& kernels) {
     const Shading& shading = *m_draw.shading;
     const FragmentOutput& output = *m_draw.output;
     if (m_draw.shown == nullptr || output.late_depth) shade_colors(shading, kernels);
-    if (m_copied) {
+    if (stores_apart()) {
         test_fragments(shading, output, kernels, m_depth_runs.data(),
                        static_cast<int>(m_depth_runs.size()), m_tile.output, m_stored.data(),
                        m_packet);
@@ -243,7 +243,7 @@ void PacketShader::shade_colors(const Shading& shading, const KernelTable& kerne
 
 void PacketShader::write_colors(const Shading& shading, const std::optional<Blend>& blend,
                                 const KernelTable& kernels) {
-    if (m_copied) m_packet.pixels = m_stored.data();
+    if (stores_apart()) m_packet.pixels = m_stored.data();
     write_pixels(shading.result, shading.program.numbers, blend, kernels, m_tile.output, m_packet);
 }
 
@@ -266,7 +266,7 @@ void PacketShader::show_values(const KernelTable& kernels) {
     }
     kernels.attributes(m_packet, runs(shown.values, kernels));
     write_values(shown, m_packet, m_shown_runs, depth >= 0 ? own_depths : nullptr,
-                 m_copied ? m_stored.data() : m_packet.pixels, m_tile.output);
+                 stores_apart() ? m_stored.data() : m_packet.pixels, m_tile.output);
 }
 
 }  // namespace burnish

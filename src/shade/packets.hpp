@@ -66,6 +66,10 @@ class PacketShader {
     };
     void add_run(const SetupTriangle& triangle, int count);
     void append(const SetupTriangle& triangle, Fragments fragments, const KernelTable& kernels);
+    /// Whether some of the packet's fragments are shaded and not stored.
+    [[nodiscard]] bool stores_apart() const {
+        return m_copied && (m_draw.output->late_depth || m_draw.shading->quads);
+    }
     void shade_packet(const KernelTable& kernels);
     AttributesCtx runs(const Shading& shading, const KernelTable& kernels);
     void list_visible(const TileFragments& fragments, std::size_t first, std::size_t end);
@@ -89,7 +93,7 @@ class PacketShader {
     bool m_interpolates = false;  ///< the draw needs runs
     bool m_needs_depth = false;   ///< and those of the depth
     bool m_copied =
-        false;  ///< the packet's pixels are m_pixels, and m_stored says which are stored
+        false;  ///< the packet's pixels are m_pixels; m_stored, if they are stored apart
     AlignedVector<std::uint16_t> m_pixels, m_stored;
     /// A triangle with fragments, the first of them; the next one's is its end.
     struct Visible {
