@@ -45,7 +45,8 @@ struct ChunkRange {
 };
 
 /// What one worker needs to turn bins into pixels.
-struct Worker {
+// Lines come in pairs: what two workers write all the time must not share one.
+struct alignas(128) Worker {
     explicit Worker(PixelFormat format) : image(format) {}
     TileVisibility visibility;
     PacketShader shader;
