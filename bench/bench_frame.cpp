@@ -111,38 +111,23 @@ const Geometry& geometry() {
     return g;
 }
 
-void setup(benchmark::State& state) {
-    const Geometry& g = geometry();
-    const auto triangle_at = [&](std::size_t i, SetupTriangle& out) {
-        return setup_triangle(g.screen[g.indices[i]], g.screen[g.indices[i + 1]],
-                              g.screen[g.indices[i + 2]], Facing::any, {kWidth, kHeight}, out);
-    };
-    for (auto _ : state) {
-        for (std::size_t i = 0; i < g.indices.size(); i += 3) {
-            SetupTriangle triangle{};
-            benchmark::DoNotOptimize(triangle_at(i, triangle));
-            benchmark::DoNotOptimize(triangle);
-        }
-    }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.indices.size() / 3));
-}
-
 /// All chunks of the mesh, as one worker fills them.
-std::vector<Chunk> bin_all(const Geometry& g, std::vector<Chunk> chunks = {}) {
+std::vector<Chunk> bin_all(const Geometry& g, const KernelTable& kernels,
+                           std::vector<Chunk> chunks = {}) {
     const FrameSize size{kWidth, kHeight};
     const std::size_t count = g.indices.size() / 3, step = chunk_size(size, count);
     chunks.resize((count + step - 1) / step);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         chunks[i].fill({g.mesh(), 0, Facing::any, g.viewport, size}, i * step,
-                       std::min(count, (i + 1) * step));
+                       std::min(count, (i + 1) * step), kernels);
     }
     return chunks;
 }
 
-void bin(benchmark::State& state) {
+void bin(benchmark::State& state, const KernelTable* kernels) {
     const Geometry& g = geometry();
-    std::vector<Chunk> chunks = bin_all(g);
-    for (auto _ : state) chunks = bin_all(g, std::move(chunks));
+    std::vector<Chunk> chunks = bin_all(g, *kernels);
+    for (auto _ : state) chunks = bin_all(g, *kernels, std::move(chunks));
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.indices.size() / 3));
 }
 
@@ -166,7 +151,7 @@ std::uint64_t draw_tiles(const std::vector<Chunk>& chunks, const KernelTable& ke
 }
 
 void tile(benchmark::State& state, const KernelTable* kernels) {
-    const std::vector<Chunk> chunks = bin_all(geometry());
+    const std::vector<Chunk> chunks = bin_all(geometry(), *kernels);
     TileVisibility visibility;
     if (draw_tiles(chunks, *kernels, visibility, 1) !=
         draw_tiles(chunks, table_reference(), visibility, 1)) {
@@ -193,10 +178,10 @@ void register_frame(const std::string& scene, const std::string& isa, int thread
 }
 
 void register_all() {
-    benchmark::RegisterBenchmark("raster/setup", setup)->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark("raster/bin", bin)->Unit(benchmark::kMicrosecond);
     for (const KernelTable* table : available_tables()) {
         const std::string isa = table->isa;
+        benchmark::RegisterBenchmark(("raster/bin/" + isa).c_str(), bin, table)
+            ->Unit(benchmark::kMicrosecond);
         benchmark::RegisterBenchmark(("raster/tiles/" + isa).c_str(), tile, table)
             ->Unit(benchmark::kMicrosecond);
         if (table == &table_reference()) continue;

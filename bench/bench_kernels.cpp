@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,9 +17,9 @@
 
 /// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
 /// compared with the reference before anything is timed. Items are fragments, vertices for
-/// `transform` and `light_vertices`, triangles for `attribute_planes`, covered pixels for
-/// `rasterize`; `cycles` are those of the time-stamp counter per item, which runs at the CPU's
-/// nominal clock.
+/// `transform` and `light_vertices`, triangles for `setup`, `rasterize_tiny` and
+/// `attribute_planes`, covered pixels for `rasterize`; `cycles` are those of the time-stamp counter
+/// per item, which runs at the CPU's nominal clock.
 namespace burnish {
 namespace {
 
@@ -121,6 +123,79 @@ void add_transform() {
         });
 }
 
+/// A sheet of quads, two triangles each, on which the stages for small triangles are timed: `size`
+/// pixels a quad, turned a little so that no edge is level. Faces the eye.
+struct Sheet {
+    static constexpr int kSide = 40;
+    static constexpr int kTriangles = 2 * kSide * kSide;
+    std::vector<ScreenVertex> vertices;
+    std::vector<std::uint32_t> indices;
+    AlignedVector<SetupTriangle> triangles{kTriangles + 1};
+    std::vector<std::uint64_t> covered = std::vector<std::uint64_t>(kTriangles + 1);
+    SetupCounts counts{};
+
+    explicit Sheet(float size) {
+        for (int y = 0; y <= kSide; ++y) {
+            for (int x = 0; x <= kSide; ++x) {
+                const auto u = static_cast<float>(x), v = static_cast<float>(y);
+                const auto window = [&](float pixel) {
+                    return static_cast<std::int32_t>(size * pixel * 16.0F) * 16 + 3 * 256;
+                };
+                vertices.push_back({window(u + 0.1F * v), window(v + 0.07F * (kSide - u)),
+                                    0.4F + 0.002F * u + 0.003F * v, 0});
+            }
+        }
+        for (std::uint32_t y = 0; y < kSide; ++y) {
+            for (std::uint32_t x = 0; x < kSide; ++x) {
+                const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
+                indices.insert(indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+            }
+        }
+    }
+    SetupCtx context() {
+        SetupCtx ctx{};
+        ctx.vertices = vertices.data();
+        ctx.indices = indices.data();
+        ctx.count = kTriangles;
+        ctx.width = ctx.height = 1024;
+        ctx.drop_negative = 1;
+        ctx.triangles = triangles.data();
+        ctx.covered = covered.data();
+        ctx.counts = &counts;
+        return ctx;
+    }
+    bool operator==(const Sheet& other) const {
+        const auto drawn = static_cast<std::size_t>(counts.drawn);
+        return counts.drawn == other.counts.drawn &&
+               std::equal(covered.data(), covered.data() + drawn, other.covered.data()) &&
+               std::memcmp(triangles.data(), other.triangles.data(),
+                           drawn * sizeof(SetupTriangle)) == 0;
+    }
+};
+
+/// Triangles of 2.5 pixels, of 8, and of 50, which are not tiny.
+void add_setup() {
+    for (const auto& [name, size] : {std::pair{"2", 2.24F}, {"8", 4.0F}, {"50", 10.0F}}) {
+        add(
+            std::string("setup/pixels_") + name, Sheet::kTriangles,
+            [=](const KernelTable& table) -> std::string {
+                Sheet got(size), want(size);
+                table.setup(got.context());
+                table_reference().setup(want.context());
+                if (want.counts.drawn < Sheet::kTriangles / 2) return "triangles that are missing";
+                return got == want ? "" : "triangles";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                Sheet sheet(size);
+                const SetupCtx ctx = sheet.context();
+                for (auto _ : state) {
+                    table.setup(ctx);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
 /// Vertices with a half vector and a cosine each, as two-combiner machines want them.
 struct LitVertices {
     static constexpr int kCount = 1024;
@@ -165,8 +240,8 @@ void add_light_vertices() {
 }
 
 struct Tile {
-    AlignedVector<float> depth = AlignedVector<float>(kTilePixels, 1.0F);
-    AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels, kNoTriangle);
+    AlignedVector<float> depth = AlignedVector<float>(kTilePixels + 1, 1.0F);
+    AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels + 1, kNoTriangle);
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
 
     std::vector<std::uint64_t> drawn;
@@ -205,7 +280,7 @@ std::vector<TileTriangle> squares(int side) {
             t.z = 0.5F;
             t.zx = t.zy = 0.001F;
             t.z_high = 1.0F;
-            t.pass_less = t.pass_equal = t.depth_write = 1;
+            t.pass_less = t.depth_write = 1;
             TileTriangle upper = t;
             upper.id = static_cast<std::uint32_t>(triangles.size());
             add_edge(upper, side, 0, side * x, false);
@@ -261,6 +336,53 @@ void add_rasterize_depths() {
                 Tile tile;
                 for (auto _ : state) {
                     tile.draw_depths(table, triangles);
+                    benchmark::ClobberMemory();
+                }
+            });
+    }
+}
+
+/// The triangles of a sheet in the tile at the corner of the frame.
+std::vector<TileEntry> entries_of(const Sheet& sheet) {
+    std::vector<TileEntry> entries;
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sheet.counts.drawn); ++i) {
+        const PixelRect& box = sheet.triangles[i].box;
+        if (sheet.covered[i] == 0 || box.x1 >= kTileSize || box.y1 >= kTileSize) continue;
+        entries.push_back({sheet.covered[i], i, static_cast<std::uint8_t>(box.x0),
+                           static_cast<std::uint8_t>(box.y0)});
+    }
+    return entries;
+}
+
+/// Into depths that are cleared again each time: 16 KB.
+void add_rasterize_tiny() {
+    for (const auto& [name, size] : {std::pair{"2", 2.24F}, {"8", 4.0F}}) {
+        static std::vector<std::unique_ptr<Sheet>> sheets;
+        sheets.push_back(std::make_unique<Sheet>(size));
+        Sheet& sheet = *sheets.back();
+        table_reference().setup(sheet.context());
+        const std::vector<TileEntry> entries = entries_of(sheet);
+        const auto draw = [entries, &sheet](const KernelTable& table, Tile& tile, DepthRule rule) {
+            tile.drawn.resize(entries.size());
+            table.rasterize_tiny({entries.data(), static_cast<int>(entries.size()),
+                                  sheet.triangles.data(), rule, 0, 0, 0, tile.depth.data(),
+                                  tile.id.data(), tile.block_far.data(), tile.drawn.data()});
+        };
+        add(
+            std::string("rasterize_tiny/pixels_") + name, static_cast<std::int64_t>(entries.size()),
+            [=](const KernelTable& table) -> std::string {
+                Tile got, want;
+                draw(table, got, {1, 0, 0, 1});
+                draw(table_reference(), want, {1, 0, 0, 1});
+                got.id.back() = want.id.back();
+                got.depth.back() = want.depth.back();
+                return got.id == want.id && got.depth == want.depth ? "" : "ids or depths";
+            },
+            [=](const KernelTable& table, benchmark::State& state) {
+                Tile tile;
+                for (auto _ : state) {
+                    std::fill(tile.depth.begin(), tile.depth.end(), 1.0F);
+                    draw(table, tile, {1, 0, 0, 1});
                     benchmark::ClobberMemory();
                 }
             });
@@ -804,9 +926,11 @@ int main(int argc, char** argv) {
     count_only = can_count_instructions() && end != argv + argc;
     argc = static_cast<int>(end - argv);
     add_transform();
+    add_setup();
     add_light_vertices();
     add_rasterize();
     add_rasterize_depths();
+    add_rasterize_tiny();
     add_collect();
     add_attribute_planes();
     add_attributes();

@@ -30,30 +30,25 @@ struct BlendRows {
     int source[4], destination[4];
 };
 
-/// Pixels of kLanes fragments as 32-bit lanes: the first four of each eight, and the others.
+/// Pixels of kLanes fragments, four bytes each: the first four of each eight, and the others.
 struct PixelLanes {
-    I32 low, high;
+    I16 low, high;
 };
 
 /// Of the first `used` fragments; the others are zeros.
 inline PixelLanes get_pixels(const std::uint32_t* tile, const std::uint16_t* pixels, int used) {
-    const auto lanes = [](I16 low, I16 high) {
-        return PixelLanes{::xsimd::bitwise_cast<I32>(low), ::xsimd::bitwise_cast<I32>(high)};
-    };
-    const void *low[kParts], *high[kParts];
-    bool whole = used == kLanes;
-    for (int part = 0; part < kParts && whole; ++part) {
-        whole = are_consecutive(pixels + 8 * part);
-        low[part] = tile + pixels[8 * part];
-        high[part] = tile + pixels[8 * part] + 4;
-    }
-    if (whole) return lanes(load_lanes(low), load_lanes(high));
     Pixels8 scattered{};
     for (int k = 0; k < used; ++k) {
         std::int16_t* const half = scattered.half[k / 4 % 2] + k / 8 * 8;
         __builtin_memcpy(half + k % 4 * 2, tile + pixels[k], 4);
     }
-    return lanes(load(scattered.half[0]), load(scattered.half[1]));
+    return {load(scattered.half[0]), load(scattered.half[1])};
+}
+/// kLanes of them one after the other.
+inline PixelLanes get_row(const std::uint32_t* from) {
+    const auto* const words = reinterpret_cast<const std::int16_t*>(from);
+    const I16 first = load(words), second = load(words + kLanes);
+    return {even_lanes(first, second), odd_lanes(first, second)};
 }
 
 /// Bytes in 16-bit lanes. Products are 0 .. 65025 and rounded as the final combiner's are; a sum of
@@ -72,43 +67,104 @@ I16 blend_bytes(I16 s, I16 fs, I16 d, I16 fd) {
     }
 }
 
-template <class Model, BlendSum Sum>
-void blend_rgba8(const Packet& packet, const BlendCtx& ctx) {
-    const BlendRows rows(ctx);
-    const I16 turn_source(ctx.source.inverted != 0 ? 255 : 0),
-        turn_destination(ctx.destination.inverted != 0 ? 255 : 0), byte(255);
-    alignas(64) std::int16_t value[kBlendRows][kLanes];
-    store(value[0], I16(0));
-    for (int c = 0; c < 4; ++c) {
-        store(value[kConstantRow + c],
-              I16(static_cast<std::int16_t>(ctx.constant[c] * 255.0F + 0.5F)));
+/// The bytes of pixels, channel by channel in 16-bit lanes.
+struct ChannelBytes {
+    alignas(64) std::uint8_t rg[2 * kLanes], ba[2 * kLanes];
+};
+constexpr ChannelBytes make_channel_bytes() {
+    ChannelBytes bytes{};
+    for (int i = 0; i < 2 * kLanes; ++i) {
+        const int at = i % 16, byte = at % 8 / 2 * 4 + at / 8;
+        bytes.rg[i] = static_cast<std::uint8_t>(at % 2 == 0 ? byte : 0x80);
+        bytes.ba[i] = static_cast<std::uint8_t>(at % 2 == 0 ? byte + 2 : 0x80);
     }
+    return bytes;
+}
+constexpr ChannelBytes kChannelBytes = make_channel_bytes();
+inline void split_channels(const PixelLanes& pixels, I16 (&channel)[4]) {
+    const I16 rg = load(reinterpret_cast<const std::int16_t*>(kChannelBytes.rg)),
+              ba = load(reinterpret_cast<const std::int16_t*>(kChannelBytes.ba));
+    const I16 low_rg = shuffle_bytes(pixels.low, rg), high_rg = shuffle_bytes(pixels.high, rg),
+              low_ba = shuffle_bytes(pixels.low, ba), high_ba = shuffle_bytes(pixels.high, ba);
+    channel[0] = zip_lo64(low_rg, high_rg);
+    channel[1] = zip_hi64(low_rg, high_rg);
+    channel[2] = zip_lo64(low_ba, high_ba);
+    channel[3] = zip_hi64(low_ba, high_ba);
+}
+
+/// Any factors, from rows of what they may be.
+template <BlendSum Sum>
+class AnyFactors {
+  public:
+    explicit AnyFactors(const BlendCtx& ctx)
+        : m_rows(ctx),
+          m_turn_source(ctx.source.inverted != 0 ? 255 : 0),
+          m_turn_destination(ctx.destination.inverted != 0 ? 255 : 0) {
+        store(m_value[0], I16(0));
+        for (int c = 0; c < 4; ++c) {
+            store(m_value[kConstantRow + c],
+                  I16(static_cast<std::int16_t>(ctx.constant[c] * 255.0F + 0.5F)));
+        }
+    }
+    void operator()(const I16 (&s)[4], const I16 (&d)[4], I16 (&out)[4]) {
+        for (int c = 0; c < 4; ++c) {
+            store(m_value[kSourceRow + c], s[c]);
+            store(m_value[kDestinationRow + c], d[c]);
+        }
+        for (int c = 0; c < 4; ++c) {
+            out[c] = blend_bytes<Sum>(s[c], load(m_value[m_rows.source[c]]) ^ m_turn_source, d[c],
+                                      load(m_value[m_rows.destination[c]]) ^ m_turn_destination);
+        }
+    }
+
+  private:
+    BlendRows m_rows;
+    I16 m_turn_source, m_turn_destination;
+    alignas(64) std::int16_t m_value[kBlendRows][kLanes];
+};
+
+/// s a + d (1 - a): the two products are at most 255^2 together.
+struct SourceAlpha {
+    void operator()(const I16 (&s)[4], const I16 (&d)[4], I16 (&out)[4]) const {
+        const I16 a = s[3], rest = I16(255) - a;
+        for (int c = 0; c < 4; ++c) out[c] = quotient_255(s[c] * a + I16(128) + d[c] * rest);
+    }
+    static bool are_factors_of(const BlendCtx& ctx) {
+        return ctx.source.operand == BlendOperand::source_alpha && ctx.source.inverted == 0 &&
+               ctx.destination.operand == BlendOperand::source_alpha &&
+               ctx.destination.inverted != 0;
+    }
+};
+
+template <class Model, class Factors>
+void blend_rgba8_by(const Packet& packet, const BlendCtx& ctx, Factors blend) {
     const std::int16_t* plane[4];
     for (int c = 0; c < 4; ++c) plane[c] = packet.planes + ctx.plane[c] * kPacketSize;
     auto* const tile = static_cast<std::uint32_t*>(ctx.tile);
     for (int i = 0; i < packet.count; i += kLanes) {
+        const std::uint16_t* const pixels = packet.pixels + i;
         const int used = packet.count - i < kLanes ? packet.count - i : kLanes;
-        const auto [low, high] = get_pixels(tile, packet.pixels + i, used);
-        const I16 old_rg = narrow((low << 16) >> 16, (high << 16) >> 16),
-                  old_ba = narrow(low >> 16, high >> 16);
-        const I16 d[4] = {old_rg & byte, shift_right_logical(old_rg, 8), old_ba & byte,
-                          shift_right_logical(old_ba, 8)};
-        I16 s[4], out[4];
-        for (int c = 0; c < 4; ++c) {
-            s[c] = Model::to_u8(load(plane[c] + i));
-            store(value[kSourceRow + c], s[c]);
-            store(value[kDestinationRow + c], d[c]);
-        }
-        for (int c = 0; c < 4; ++c) {
-            out[c] = blend_bytes<Sum>(s[c], load(value[rows.source[c]]) ^ turn_source, d[c],
-                                      load(value[rows.destination[c]]) ^ turn_destination);
-        }
+        const bool in_a_row = used == kLanes && are_consecutive(pixels);
+        I16 s[4], d[4], out[4];
+        split_channels(in_a_row ? get_row(tile + pixels[0]) : get_pixels(tile, pixels, used), d);
+        for (int c = 0; c < 4; ++c) s[c] = Model::to_u8(load(plane[c] + i));
+        blend(s, d, out);
         const I16 rg = out[0] | (out[1] << 8), ba = out[2] | (out[3] << 8);
-        Pixels8 pixels;
-        store(pixels.half[0], zip_lo16(rg, ba));
-        store(pixels.half[1], zip_hi16(rg, ba));
-        put_pixels(pixels, packet.pixels + i, used, tile);
+        const I16 low = zip_lo16(rg, ba), high = zip_hi16(rg, ba);
+        if (in_a_row) {
+            put_row(low, high, tile + pixels[0]);
+        } else {
+            put_pixels(low, high, pixels, used, tile);
+        }
     }
+}
+
+template <class Model, BlendSum Sum>
+void blend_rgba8(const Packet& packet, const BlendCtx& ctx) {
+    if (Sum == BlendSum::add && SourceAlpha::are_factors_of(ctx)) {
+        return blend_rgba8_by<Model>(packet, ctx, SourceAlpha());
+    }
+    blend_rgba8_by<Model>(packet, ctx, AnyFactors<Sum>(ctx));
 }
 
 /// Channels of the wider frames, one at a time.

@@ -184,12 +184,10 @@ struct StoreWide {
     static float to_float(std::int16_t v) { return static_cast<float>(v) / 16384.0F; }
 };
 
-/// Eight pixels in a row, as most are. Four indices at a time, which are too small to carry.
-bool are_consecutive(const std::uint16_t* pixels) {
-    std::uint64_t four[2];
-    __builtin_memcpy(four, pixels, sizeof four);
-    const std::uint64_t first = pixels[0] * 0x0001000100010001U + 0x0003000200010000U;
-    return four[0] == first && four[1] == first + 0x0004000400040004U;
+/// kLanes pixels one after the other, as where a triangle covers whole blocks.
+inline bool are_consecutive(const std::uint16_t* pixels) {
+    const auto* const p = reinterpret_cast<const std::int16_t*>(pixels);
+    return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.of16));
 }
 
 /// Pixels of kLanes fragments, four bytes each: zipping keeps to the lanes, so fragments
@@ -198,21 +196,25 @@ struct Pixels8 {
     alignas(64) std::int16_t half[2][kLanes];
 };
 
-/// The first `used` of them to the tile.
-inline void put_pixels(const Pixels8& from, const std::uint16_t* pixels, int used,
+/// kLanes of them one after the other.
+inline void put_row(I16 low, I16 high, std::uint32_t* to) {
+    auto* const words = reinterpret_cast<std::int16_t*>(to);
+    store(words, zip_lanes_lo(low, high));
+    store(words + kLanes, zip_lanes_hi(low, high));
+}
+
+/// The first `used` of them to the tile, wherever they lie: to look for runs costs more.
+inline void put_pixels(I16 low_half, I16 high_half, const std::uint16_t* pixels, int used,
                        std::uint32_t* tile) {
+    Pixels8 from;
+    store(from.half[0], low_half);
+    store(from.half[1], high_half);
     const auto put = [&](const std::int16_t* pixel, int k) {
         __builtin_memcpy(tile + pixels[k], pixel, 4);
     };
     int part = 0;
     for (; part + 8 <= used; part += 8) {
         const std::int16_t *low = from.half[0] + part, *high = from.half[1] + part;
-        if (are_consecutive(pixels + part)) {
-            std::uint32_t* const to = tile + pixels[part];
-            __builtin_memcpy(to, low, 16);
-            __builtin_memcpy(to + 4, high, 16);
-            continue;
-        }
         put(low, part);
         put(low + 2, part + 1);
         put(low + 4, part + 2);
@@ -237,10 +239,12 @@ void store_rgba8(const Packet& packet, const StoreCtx& ctx) {
     for (int i = 0; i < count; i += kLanes) {
         const I16 rg = Model::to_u8(load(plane[0] + i)) | (Model::to_u8(load(plane[1] + i)) << 8);
         const I16 ba = Model::to_u8(load(plane[2] + i)) | (Model::to_u8(load(plane[3] + i)) << 8);
-        Pixels8 out;
-        store(out.half[0], zip_lo16(rg, ba));
-        store(out.half[1], zip_hi16(rg, ba));
-        put_pixels(out, pixels + i, count - i < kLanes ? count - i : kLanes, tile);
+        const I16 low = zip_lo16(rg, ba), high = zip_hi16(rg, ba);
+        if (count - i >= kLanes && are_consecutive(pixels + i)) {
+            put_row(low, high, tile + pixels[i]);
+        } else {
+            put_pixels(low, high, pixels + i, count - i < kLanes ? count - i : kLanes, tile);
+        }
     }
 }
 

@@ -20,6 +20,8 @@ namespace {
 #include "kernels/levels.inl"          // after fetch.inl, whose AxisAddress it uses
 #include "kernels/light_vertices.inl"  // after interpolate.inl, whose vectors it uses
 #include "kernels/rasterize.inl"
+#include "kernels/rasterize_tiny.inl"
+#include "kernels/setup.inl"
 #include "kernels/texture_shader.inl"
 #include "kernels/transform.inl"
 #include "kernels/words.inl"

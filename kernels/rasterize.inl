@@ -4,15 +4,16 @@ inline constexpr int kBlockVectors = kBlockPixels / kLanes32;
 inline constexpr int kRowVectors = kLanes32 >= kBlockSize ? 1 : kBlockSize / kLanes32;
 inline constexpr int kVectorRows = kLanes32 >= kBlockSize ? kLanes32 / kBlockSize : 1;
 
-/// Position of each lane inside its vector.
+/// Position of each lane inside its vector, and its bit.
 struct LanePositions {
-    alignas(64) std::int32_t x[16], y[16];
+    alignas(64) std::int32_t x[16], y[16], bit[16];
 };
 constexpr LanePositions make_lane_positions() {
     LanePositions lanes{};
     for (int i = 0; i < 16; ++i) {
         lanes.x[i] = i % kBlockSize;
         lanes.y[i] = i / kBlockSize;
+        lanes.bit[i] = 1 << i;
     }
     return lanes;
 }
@@ -22,6 +23,10 @@ inline I32 lane_x() {
 }
 inline I32 lane_y() {
     return load(kLanePositions.y);
+}
+/// Lanes whose bits are set.
+inline Mask32 lanes_of(std::uint64_t bits) {
+    return (I32(static_cast<std::int32_t>(bits)) & load(kLanePositions.bit)) != I32(0);
 }
 
 /// Depth at a tile pixel, as RasterizeCtx defines it.
@@ -64,12 +69,23 @@ inline void set_edges(const TileTriangle& t, TriangleEdges& e) {
 struct BlockMasks {
     std::uint64_t touched = 0;  ///< maybe covered, maybe visible
     std::uint64_t crossed = 0;  ///< an edge runs through it
+    std::uint64_t clamped = 0;  ///< the plane leaves the range of the depths
 };
+
+/// Upper bounds of blocks' depths after the triangle was drawn in them; `whole`: all of their
+/// pixels are covered.
+inline F32 updated_far(const TileTriangle& t, F32 far, F32 farthest, Mask32 touched, Mask32 whole) {
+    if (t.depth_write == 0) return far;
+    if (t.pass_greater != 0) return ::xsimd::select(as_float(touched), max(farthest, far), far);
+    if (t.pass_less == 0) return far;
+    // Whatever the test left is no farther than the triangle.
+    return ::xsimd::select(as_float(touched & whole), min(farthest, far), far);
+}
 
 /// Classifies the blocks of the bounding box, as many at a time as there are lanes: the tile is 8x8
 /// blocks as a block is 8x8 pixels, so lane positions serve for both.
 inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& edges,
-                                  const float* block_far) {
+                                  float* block_far) {
     constexpr int kLast = kBlockSize - 1;
     constexpr int kSide = kTileSize / kBlockSize;
     const int first_row = t.y0 / kBlockSize, last_row = t.y1 / kBlockSize;
@@ -80,8 +96,10 @@ inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& ed
     const std::uint64_t box = columns * 0x0101010101010101U & rows;
     BlockMasks masks;
     const F32 z0(t.z), zx(t.zx), zy(t.zy), low(t.z_low), high(t.z_high);
-    const I32 corner_x(t.offset_x + (t.zx < 0.0F ? kLast : 0));
-    const I32 corner_y(t.offset_y + (t.zy < 0.0F ? kLast : 0));
+    const I32 near_x(t.offset_x + (t.zx < 0.0F ? kLast : 0)),
+        near_y(t.offset_y + (t.zy < 0.0F ? kLast : 0));
+    const I32 far_x(t.offset_x + (t.zx < 0.0F ? 0 : kLast)),
+        far_y(t.offset_y + (t.zy < 0.0F ? 0 : kLast));
     const int first = first_row / kVectorRows * kRowVectors;
     const int end = (last_row / kVectorRows + 1) * kRowVectors;
     for (int v = first; v < end; ++v) {
@@ -96,18 +114,28 @@ inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& ed
             seen &= ~static_cast<std::uint64_t>(bits(highest < I32(0)));
             any_low = any_low | (base + I32((across < 0 ? across : 0) + (down < 0 ? down : 0)));
         }
-        masks.crossed |= static_cast<std::uint64_t>(bits(any_low < I32(0))) << shift;
+        const Mask32 whole = any_low >= I32(0);
+        const I32 x = (lane_x() + I32(v % kRowVectors * kLanes32)) << 3;
+        const I32 y = (lane_y() + I32(v / kRowVectors * kVectorRows)) << 3;
+        const auto plane = [&](I32 dx, I32 dy) {
+            return (z0 + to_float(x + dx) * zx) + to_float(y + dy) * zy;
+        };
+        const F32 near_plane = plane(near_x, near_y), far_plane = plane(far_x, far_y);
+        const F32 nearest = min(max(near_plane, low), high),
+                  farthest = min(max(far_plane, low), high);
+        const F32 far = load(block_far + shift);
         if (t.pass_greater == 0) {
-            const I32 x = ((lane_x() + I32(v % kRowVectors * kLanes32)) << 3) + corner_x;
-            const I32 y = ((lane_y() + I32(v / kRowVectors * kVectorRows)) << 3) + corner_y;
-            const F32 nearest = min(max((z0 + to_float(x) * zx) + to_float(y) * zy, low), high);
-            const F32 far = load(block_far + shift);
             const MaskF hidden = t.pass_equal != 0 ? nearest > far : nearest >= far;
             seen &= ~static_cast<std::uint64_t>(bits(as_int(hidden)));
         }
-        masks.touched |= (seen & lanes) << shift;
+        seen &= lanes & (box >> shift);
+        masks.touched |= seen << shift;
+        masks.crossed |= static_cast<std::uint64_t>(bits(any_low < I32(0))) << shift;
+        masks.clamped |=
+            static_cast<std::uint64_t>(bits(as_int((near_plane < low) | (far_plane > high))))
+            << shift;
+        store(block_far + shift, updated_far(t, far, farthest, lanes_of(seen), whole));
     }
-    masks.touched &= box;
     return masks;
 }
 
@@ -157,8 +185,9 @@ struct LeaveBit {
     std::uint64_t passed = 0;
 };
 
-/// Coverage and depth test of one block; `Crossed`: an edge runs through it.
-template <bool Crossed, class Rule, class Trace>
+/// Coverage and depth test of one block; `Crossed`: an edge runs through it; `Clamped`: the plane
+/// may leave the range of the depths.
+template <bool Crossed, bool Clamped, class Rule, class Trace>
 inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x, int y,
                        float* depth, Trace& trace) {
     const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
@@ -181,7 +210,8 @@ inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x,
     for (int v = first; v < end; ++v) {
         // Whole numbers below 2^24: exact, however they are added.
         const F32 dy = lanes_y + F32(static_cast<float>(v / kRowVectors * kVectorRows));
-        const F32 z = min(max(z_row[v % kRowVectors] + dy * zy, z_low), z_high);
+        F32 z = z_row[v % kRowVectors] + dy * zy;
+        if constexpr (Clamped) z = min(max(z, z_low), z_high);
         const F32 old = load(depth + v * kLanes32);
         Mask32 write = as_int(Rule::pass(t, z, old));
         if constexpr (Crossed) {
@@ -209,6 +239,20 @@ inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, 
     return farthest < far ? farthest : far;
 }
 
+template <class Rule, class Trace>
+inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, const BlockMasks& masks,
+                       int block, float* tile_depth, Trace& trace) {
+    const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
+    float* const depth = tile_depth + block * kBlockPixels;
+    if ((masks.crossed >> block & 1) != 0) {
+        draw_block<true, true, Rule>(t, edges, x, y, depth, trace);
+    } else if ((masks.clamped >> block & 1) != 0) {
+        draw_block<false, true, Rule>(t, edges, x, y, depth, trace);
+    } else {
+        draw_block<false, false, Rule>(t, edges, x, y, depth, trace);
+    }
+}
+
 /// Returns the blocks in which a fragment passed, as far as `Trace` knows.
 template <class Rule, class Trace>
 std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx) {
@@ -218,15 +262,9 @@ std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx)
     const BlockMasks masks = classify_blocks(t, edges, ctx.block_far);
     for (std::uint64_t rest = masks.touched; rest != 0; rest &= rest - 1) {
         const int block = __builtin_ctzll(rest);
-        const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
-        const bool crossed = (masks.crossed >> block & 1) != 0;
-        float* const depth = ctx.depth + block * kBlockPixels;
         Trace trace(t, ctx, block);
-        crossed ? draw_block<true, Rule>(t, edges, x, y, depth, trace)
-                : draw_block<false, Rule>(t, edges, x, y, depth, trace);
+        draw_block<Rule>(t, edges, masks, block, ctx.depth, trace);
         drawn |= trace.passed() << block;
-        float& far = ctx.block_far[block];
-        far = updated_far(t, x, y, !crossed, far);
     }
     return drawn;
 }
@@ -327,13 +365,8 @@ void cover(const CoverCtx& ctx) noexcept {
     for (std::uint64_t rest = masks.touched; rest != 0; rest &= rest - 1) {
         const int block = __builtin_ctzll(rest);
         const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
-        const bool crossed = (masks.crossed >> block & 1) != 0;
-        float* const depth = ctx.depth + block * kBlockPixels;
         LeaveBit trace;
-        crossed ? draw_block<true, AnyRule>(t, edges, x, y, depth, trace)
-                : draw_block<false, AnyRule>(t, edges, x, y, depth, trace);
-        float& far = ctx.block_far[block];
-        far = updated_far(t, x, y, !crossed, far);
+        draw_block<AnyRule>(t, edges, masks, block, ctx.depth, trace);
         const std::uint64_t passed = trace.passed & box_pixels(t, x, y);
         if (passed == 0) continue;
         ctx.passed[block] = passed;

@@ -95,6 +95,104 @@ void transform(const TransformCtx& ctx) noexcept {
     }
 }
 
+/// Whether the centre of the pixel lies inside, with the top-left rule.
+bool covers(const SetupTriangle& t, int x, int y) {
+    for (int i = 0; i < 3; ++i) {
+        const int next = (i + 1) % 3;
+        const Int a = t.y[i] - t.y[next], b = t.x[next] - t.x[i];
+        const Int value = a * (256 * x + 128 - t.x[i]) + b * (256 * y + 128 - t.y[i]);
+        const bool top_left = a > 0 || (a == 0 && b > 0);
+        if (value < 0 || (value == 0 && !top_left)) return false;
+    }
+    return true;
+}
+
+/// First and last pixel whose centre lies from `low` to `high`.
+Int first_pixel(Int low) {
+    return (low - 128 + 255) >> 8;
+}
+Int last_pixel(Int high) {
+    return (high - 128) >> 8;
+}
+
+void depth_plane(const ScreenVertex (&v)[3], Int area, SetupTriangle& out) {
+    const double z0 = static_cast<double>(v[0].z);
+    const double dz1 = static_cast<double>(v[1].z) - z0, dz2 = static_cast<double>(v[2].z) - z0;
+    const double x1 = v[1].x - v[0].x, y1 = v[1].y - v[0].y;
+    const double x2 = v[2].x - v[0].x, y2 = v[2].y - v[0].y;
+    const double scale = 256.0 / static_cast<double>(area);
+    const double zx = (dz1 * y2 - dz2 * y1) * scale, zy = (dz2 * x1 - dz1 * x2) * scale;
+    const double dx = out.reference_x + 0.5 - v[0].x / 256.0;
+    const double dy = out.reference_y + 0.5 - v[0].y / 256.0;
+    out.z = static_cast<float>(z0 + dx * zx + dy * zy);
+    out.zx = static_cast<float>(zx);
+    out.zy = static_cast<float>(zy);
+    out.z_low = std::min({v[0].z, v[1].z, v[2].z});
+    out.z_high = std::max({v[0].z, v[1].z, v[2].z});
+}
+
+/// Whether the triangle is drawn, and `covered` if it is tiny. Corners need no clipping.
+bool set_up(const SetupCtx& ctx, ScreenVertex (&v)[3], SetupCounts& counts, SetupTriangle& out,
+            std::uint64_t& covered) {
+    const Int area =
+        Int{v[1].x - v[0].x} * (v[2].y - v[0].y) - Int{v[1].y - v[0].y} * (v[2].x - v[0].x);
+    if (area == 0) {
+        ++counts.degenerate;
+        return false;
+    }
+    if ((area > 0 ? ctx.drop_positive : ctx.drop_negative) != 0) return false;
+    out.swapped = area < 0 ? 1 : 0;
+    if (area < 0) std::swap(v[1], v[2]);
+    for (int i = 0; i < 3; ++i) {
+        out.x[i] = v[i].x;
+        out.y[i] = v[i].y;
+    }
+    const auto [x_low, x_high] = std::minmax({v[0].x, v[1].x, v[2].x});
+    const auto [y_low, y_high] = std::minmax({v[0].y, v[1].y, v[2].y});
+    const Int x0 = first_pixel(x_low), x1 = last_pixel(x_high);
+    const Int y0 = first_pixel(y_low), y1 = last_pixel(y_high);
+    out.box = {static_cast<std::int16_t>(std::max(x0, Int{0})),
+               static_cast<std::int16_t>(std::max(y0, Int{0})),
+               static_cast<std::int16_t>(std::min(x1, Int{ctx.width} - 1)),
+               static_cast<std::int16_t>(std::min(y1, Int{ctx.height} - 1))};
+    if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return false;
+    covered = 0;
+    const bool tiny = x1 - x0 < kTinySize && y1 - y0 < kTinySize;
+    for (int y = out.box.y0; tiny && y <= out.box.y1; ++y) {
+        for (int x = out.box.x0; x <= out.box.x1; ++x) {
+            const int bit = kTinySize * (y - out.box.y0) + x - out.box.x0;
+            if (covers(out, x, y)) covered |= std::uint64_t{1} << bit;
+        }
+    }
+    if (tiny && covered == 0) return false;
+    const ScreenVertex& farthest = *std::max_element(
+        v, v + 3, [](const ScreenVertex& a, const ScreenVertex& b) { return a.z < b.z; });
+    out.reference_x = static_cast<std::int16_t>(clamp(farthest.x >> 8, 0, ctx.width - 1));
+    out.reference_y = static_cast<std::int16_t>(clamp(farthest.y >> 8, 0, ctx.height - 1));
+    depth_plane(v, area < 0 ? -area : area, out);
+    return true;
+}
+
+void setup(const SetupCtx& ctx) noexcept {
+    SetupCounts& counts = *ctx.counts = {};
+    for (; counts.taken < ctx.count; ++counts.taken) {
+        ScreenVertex v[3];
+        for (int i = 0; i < 3; ++i) v[i] = ctx.vertices[ctx.indices[3 * counts.taken + i]];
+        const std::uint32_t any = v[0].outcode | v[1].outcode | v[2].outcode;
+        if ((any & Outcode::nonfinite) != 0) {
+            ++counts.nonfinite;
+            continue;
+        }
+        if ((v[0].outcode & v[1].outcode & v[2].outcode & Outcode::frustum) != 0) continue;
+        if ((any & Outcode::needs_clip) != 0) return;
+        SetupTriangle triangle{};
+        if (!set_up(ctx, v, counts, triangle, ctx.covered[counts.drawn])) continue;
+        triangle.number = ctx.number + static_cast<std::uint32_t>(counts.taken);
+        triangle.draw = ctx.draw & ((1U << 30) - 1);
+        ctx.triangles[counts.drawn++] = triangle;
+    }
+}
+
 bool covers(const TileTriangle& t, int x, int y) {
     for (int e = 0; e < t.edges; ++e)
         if (Int{t.a[e]} * x + Int{t.b[e]} * y + t.c[e] < 0) return false;
@@ -137,6 +235,37 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
     for (int block = 0; block < kTileBlocks; ++block) {
         const float* depth = ctx.depth + block * kBlockPixels;
         ctx.block_far[block] = *std::max_element(depth, depth + kBlockPixels);
+    }
+}
+
+void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
+    for (int k = 0; k < ctx.count; ++k) {
+        const TileEntry& entry = ctx.entries[k];
+        const SetupTriangle& triangle = ctx.triangles[entry.triangle];
+        TileTriangle t{};
+        t.z = triangle.z;
+        t.zx = triangle.zx;
+        t.zy = triangle.zy;
+        t.z_low = triangle.z_low;
+        t.z_high = triangle.z_high;
+        t.offset_x = ctx.left - triangle.reference_x;
+        t.offset_y = ctx.top - triangle.reference_y;
+        if (ctx.id != nullptr) ctx.drawn[k] = 0;
+        for (int bit = 0; bit < kTinySize * kTinySize; ++bit) {
+            if ((entry.covered >> bit & 1) == 0) continue;
+            const int x = entry.x + bit % kTinySize, y = entry.y + bit / kTinySize;
+            const int pixel = tile_index(x, y);
+            const float depth = depth_at(t, x, y);
+            if (!passes(ctx.rule, depth, ctx.depth[pixel])) continue;
+            if (ctx.id != nullptr) {
+                ctx.id[pixel] = ctx.first_id + static_cast<std::uint32_t>(k);
+                ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
+            }
+            if (ctx.rule.write == 0) continue;
+            ctx.depth[pixel] = depth;
+            float& far = ctx.block_far[pixel / kBlockPixels];
+            far = std::max(far, depth);
+        }
     }
 }
 
@@ -1226,7 +1355,9 @@ const KernelTable& table_reference() noexcept {
         .lanes = 1,
         .transform = transform,
         .light_vertices = light_vertices,
+        .setup = setup,
         .rasterize = rasterize,
+        .rasterize_tiny = rasterize_tiny,
         .cover = cover,
         .collect = collect,
         .attribute_planes = attribute_planes,

@@ -35,6 +35,19 @@ inline constexpr int kLanes = static_cast<int>(I16::size);    // 16-bit
 inline constexpr int kLanes32 = static_cast<int>(I32::size);  // 32-bit
 inline constexpr int kParts = kLanes / 8;                     // 128-bit lanes
 
+/// Number of each lane.
+struct LaneNumbers {
+    alignas(64) std::int16_t of16[kLanes];
+    alignas(64) std::int32_t of32[kLanes32];
+};
+constexpr LaneNumbers make_lane_numbers() {
+    LaneNumbers lanes{};
+    for (int i = 0; i < kLanes; ++i) lanes.of16[i] = static_cast<std::int16_t>(i);
+    for (int i = 0; i < kLanes32; ++i) lanes.of32[i] = i;
+    return lanes;
+}
+constexpr LaneNumbers kLaneNumbers = make_lane_numbers();
+
 inline I16 load(const std::int16_t* p) {
     return I16::load_unaligned(p);
 }
@@ -111,6 +124,22 @@ inline F32 to_float(I32 v) {
 struct Doubles {
     F64 low, high;
 };
+
+/// Bytes of a 128-bit vector of four elements that bring those whose bit is set to the front.
+struct PackPatterns {
+    alignas(16) std::uint8_t row[16][16];
+};
+constexpr PackPatterns make_pack_patterns() {
+    PackPatterns patterns{};
+    for (int bits = 0; bits < 16; ++bits) {
+        int n = 0;
+        for (int i = 0; i < 16; ++i) {
+            if ((bits >> i / 4 & 1) != 0) patterns.row[bits][n++] = static_cast<std::uint8_t>(i);
+        }
+    }
+    return patterns;
+}
+constexpr PackPatterns kPackPatterns = make_pack_patterns();
 
 #if defined(__AVX512BW__)
 
@@ -224,6 +253,30 @@ inline I16 broadcast_lane(const void* p) {
     return _mm512_broadcast_i32x4(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
 
+/// Numbers 0 .. kLanes32 / 2 - 1 (Half = 0) or the other ones in double, and the way back.
+template <int Half>
+inline F64 to_double(I32 v) {
+    return _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(v, Half));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, Half));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low)), _mm512_cvtpd_ps(high),
+                              1);
+}
+/// Lane K to memory.
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p), _mm512_extracti32x4_epi32(v, K));
+}
+/// The elements whose bit is set, one after the other; the rest of a vector behind them may be
+/// written as well.
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), v));
+}
+
 /// Lane k from p[k].
 inline I16 load_lanes(const void* const* p) {
     const auto lane = [&](int k) { return _mm_loadu_si128(static_cast<const __m128i*>(p[k])); };
@@ -237,6 +290,19 @@ inline void store_lanes(void* const* p, I16 v) {
     _mm_storeu_si128(static_cast<__m128i*>(p[1]), _mm512_extracti32x4_epi32(v, 1));
     _mm_storeu_si128(static_cast<__m128i*>(p[2]), _mm512_extracti32x4_epi32(v, 2));
     _mm_storeu_si128(static_cast<__m128i*>(p[3]), _mm512_extracti32x4_epi32(v, 3));
+}
+
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0x88);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm512_shuffle_i64x2(a, b, 0xdd);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), b);
 }
 
 #elif defined(__AVX2__)
@@ -345,6 +411,33 @@ inline I16 broadcast_lane(const void* p) {
     return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(p)));
 }
 
+template <int Half>
+inline F64 to_double(I32 v) {
+    return _mm256_cvtepi32_pd(_mm256_extracti128_si256(v, Half));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return _mm256_cvtps_pd(_mm256_extractf128_ps(v, Half));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(low)), _mm256_cvtpd_ps(high),
+                                1);
+}
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    _mm_storeu_si128(static_cast<__m128i*>(p), _mm256_extracti128_si256(v, K));
+}
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    const auto pattern = [](std::uint32_t four) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(kPackPatterns.row[four]));
+    };
+    const std::uint32_t low = bits & 15, high = bits >> 4;
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
+                     _mm_shuffle_epi8(_mm256_castsi256_si128(v), pattern(low)));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p + __builtin_popcount(low)),
+                     _mm_shuffle_epi8(_mm256_extracti128_si256(v, 1), pattern(high)));
+}
+
 inline I16 load_lanes(const void* const* p) {
     const auto lane = [&](int k) { return _mm_loadu_si128(static_cast<const __m128i*>(p[k])); };
     return _mm256_inserti128_si256(_mm256_castsi128_si256(lane(0)), lane(1), 1);
@@ -352,6 +445,19 @@ inline I16 load_lanes(const void* const* p) {
 inline void store_lanes(void* const* p, I16 v) {
     _mm_storeu_si128(static_cast<__m128i*>(p[0]), _mm256_castsi256_si128(v));
     _mm_storeu_si128(static_cast<__m128i*>(p[1]), _mm256_extracti128_si256(v, 1));
+}
+
+inline I16 even_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x20);
+}
+inline I16 odd_lanes(I16 a, I16 b) {
+    return _mm256_permute2x128_si256(a, b, 0x31);
+}
+inline I16 zip_lanes_lo(I16 a, I16 b) {
+    return even_lanes(a, b);
+}
+inline I16 zip_lanes_hi(I16 a, I16 b) {
+    return odd_lanes(a, b);
 }
 
 #elif defined(__SSE4_2__)
@@ -453,11 +559,45 @@ inline I16 broadcast_lane(const void* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p));
 }
 
+template <int Half>
+inline F64 to_double(I32 v) {
+    return _mm_cvtepi32_pd(Half == 0 ? v : I32(_mm_unpackhi_epi64(v, v)));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return _mm_cvtps_pd(Half == 0 ? v : F32(_mm_movehl_ps(v, v)));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
+}
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    static_assert(K == 0);
+    _mm_storeu_si128(static_cast<__m128i*>(p), v);
+}
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    const __m128i* const pattern = reinterpret_cast<const __m128i*>(kPackPatterns.row[bits]);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_shuffle_epi8(v, _mm_load_si128(pattern)));
+}
+
 inline I16 load_lanes(const void* const* p) {
     return _mm_loadu_si128(static_cast<const __m128i*>(p[0]));
 }
 inline void store_lanes(void* const* p, I16 v) {
     _mm_storeu_si128(static_cast<__m128i*>(p[0]), v);
+}
+
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
 }
 
 #elif defined(__aarch64__)
@@ -568,6 +708,27 @@ struct ShortTable {
 inline I16 broadcast_lane(const void* p) {
     return vld1q_s16(static_cast<const int16_t*>(p));
 }
+template <int Half>
+inline F64 to_double(I32 v) {
+    return vcvtq_f64_s64(vmovl_s32(Half == 0 ? vget_low_s32(v) : vget_high_s32(v)));
+}
+template <int Half>
+inline F64 to_double(F32 v) {
+    return vcvt_f64_f32(Half == 0 ? vget_low_f32(v) : vget_high_f32(v));
+}
+inline F32 to_float(F64 low, F64 high) {
+    return vcvt_high_f32_f64(vcvt_f32_f64(low), high);
+}
+template <int K>
+inline void store_lane(void* p, I16 v) {
+    static_assert(K == 0);
+    vst1q_s16(static_cast<int16_t*>(p), v);
+}
+inline void store_packed(std::int32_t* p, I32 v, std::uint32_t bits) {
+    const uint8x16_t pattern = vld1q_u8(kPackPatterns.row[bits]);
+    vst1q_s32(p, vreinterpretq_s32_u8(vqtbl1q_u8(vreinterpretq_u8_s32(v), pattern)));
+}
+
 inline I16 load_lanes(const void* const* p) {
     return vld1q_s16(static_cast<const int16_t*>(p[0]));
 }
@@ -575,27 +736,53 @@ inline void store_lanes(void* const* p, I16 v) {
     vst1q_s16(static_cast<int16_t*>(p[0]), v);
 }
 
+inline I16 even_lanes(I16 a, I16) {
+    return a;
+}
+inline I16 odd_lanes(I16, I16 b) {
+    return b;
+}
+inline I16 zip_lanes_lo(I16 a, I16) {
+    return a;
+}
+inline I16 zip_lanes_hi(I16, I16 b) {
+    return b;
+}
+
 #else
 #error "no vector wrappers for this architecture"
 #endif
 
+/// The same bits as other elements.
+inline I32 as_i32(I16 v) {
+    return ::xsimd::bitwise_cast<I32>(v);
+}
+inline I32 as_i32(F32 v) {
+    return ::xsimd::bitwise_cast<I32>(v);
+}
+inline F32 as_f32(I32 v) {
+    return ::xsimd::bitwise_cast<F32>(v);
+}
+inline I16 as_i16(I32 v) {
+    return ::xsimd::bitwise_cast<I16>(v);
+}
+inline I16 as_i16(F32 v) {
+    return ::xsimd::bitwise_cast<I16>(v);
+}
+
 /// Sign-extends the lower or upper half of each lane. Shifting down what was zipped with itself
 /// needs no zero register.
 inline I32 widen_lo(I16 v) {
-    return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(zip_lo16(v, v)) >> 16;
+    return as_i32(zip_lo16(v, v)) >> 16;
 }
 inline I32 widen_hi(I16 v) {
-    return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(zip_hi16(v, v)) >> 16;
+    return as_i32(zip_hi16(v, v)) >> 16;
 }
 
 /// Four vectors of 32-bit numbers.
 struct Columns {
-    I32 operator[](int c) const {
-        return ::xsimd::bitwise_cast<::xsimd::batch<std::int32_t, Arch>>(column[c]);
-    }
-    F32 floats(int c) const {
-        return ::xsimd::bitwise_cast<::xsimd::batch<float, Arch>>(column[c]);
-    }
+    I32 operator[](int c) const { return as_i32(column[c]); }
+    F32 floats(int c) const { return as_f32(as_i32(column[c])); }
     I16 column[4];
 };
 /// Rows of four numbers to columns of them, in each lane, and the way back.

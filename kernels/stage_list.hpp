@@ -11,7 +11,9 @@
 #define BURNISH_TILE_STAGES(X)          \
     X(transform, TransformCtx)          \
     X(light_vertices, LightVerticesCtx) \
+    X(setup, SetupCtx)                  \
     X(rasterize, RasterizeCtx)          \
+    X(rasterize_tiny, RasterizeTinyCtx) \
     X(cover, CoverCtx)                  \
     X(collect, CollectCtx)              \
     X(attribute_planes, AttributePlanesCtx)

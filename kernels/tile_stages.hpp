@@ -71,6 +71,81 @@ struct TransformCtx {
     HomogeneousVertex* homogeneous;  ///< out, `count` elements
 };
 
+/// Pixels, inclusive; empty if x0 > x1 or y0 > y1.
+struct PixelRect {
+    std::int16_t x0, y0, x1, y1;
+};
+
+/// A triangle with everything that tiles need, stored once: a cache line. Edge i runs from corner i
+/// to the next; edge functions are made of the corners, tile by tile.
+struct alignas(64) SetupTriangle {
+    std::int32_t x[3], y[3];  ///< window, 1/256 pixel; ordered so that the area is positive
+    PixelRect box;            ///< pixels whose centres it may cover, cut to the frame
+    float z, zx, zy;          ///< depth at the centre of the reference pixel, and per pixel
+    float z_low, z_high;      ///< range of the corners
+    std::int16_t reference_x, reference_y;  ///< pixel inside the frame, near the triangle
+    std::uint32_t number;                   ///< of the draw's triangles, in the order of submission
+    std::uint32_t draw : 30;
+    std::uint32_t swapped : 1;  ///< x, y have the second corner and the third exchanged
+    std::uint32_t clipped : 1;  ///< x, y are not those of the triangle's vertices
+};
+static_assert(sizeof(SetupTriangle) == 64);
+
+/// A tiny triangle's box holds at most this many pixel centres both ways, before it is cut to the
+/// frame. Its coverage is a mask: bit kTinySize * y + x for the pixel at (x, y) from the upper left
+/// one of its box.
+inline constexpr int kTinySize = 8;
+
+/// What became of the triangles that `setup` was given.
+struct SetupCounts {
+    std::int32_t taken;  ///< triangles before the first that has to be clipped
+    std::int32_t drawn;  ///< of these, those that were written
+    std::int32_t nonfinite, degenerate;
+};
+
+/// Corners to triangles, in order, up to the first triangle that has to be clipped. A triangle is
+/// looked at in this order:
+///   a corner with `nonfinite`: counted, not drawn; all corners with the same bit of `frustum`: not
+///   drawn; a corner with a bit of `needs_clip`: setup stops before it;
+///   area = (x1 - x0) (y2 - y0) - (y1 - y0) (x2 - x0), exact: 0 is counted, not drawn; neither is
+///   one with a sign that is dropped; below 0 the second corner and the third are exchanged;
+///   box: pixels with centres at 256 i + 128 from the least to the greatest coordinate, both
+///   included, cut to the frame; empty: not drawn;
+///   tiny: `covered` is its coverage, and without a pixel it is not drawn; others have 0. A centre
+///   on an edge is inside if the edge is a left one (y falls from corner i to the next) or a top
+///   one (level, x rises);
+///   reference pixel: (x >> 8, y >> 8) of the corner with the greatest z, the first of several, cut
+///   to the frame;
+///   depth, in double, corner 0 at (x0, y0, z0), all products and sums rounded, none fused:
+///     x1 = double(difference to x0), likewise x2, y1, y2, dz1, dz2;  scale = 256 / |area|
+///     zx = (dz1 * y2 - dz2 * y1) * scale,  zy = (dz2 * x1 - dz1 * x2) * scale
+///     z = (z0 + ((reference_x + 0.5) - x0 / 256) * zx) + ((reference_y + 0.5) - y0 / 256) * zy
+///   and rounded to float; z_low and z_high are the first of the least and greatest z.
+struct SetupCtx {
+    const ScreenVertex* vertices;
+    const std::uint32_t* indices;               ///< three per triangle
+    std::int32_t count;                         ///< triangles
+    std::uint32_t number, draw;                 ///< number of the first triangle; draw < 2^30
+    std::int32_t width, height;                 ///< frame, pixels
+    std::uint8_t drop_positive, drop_negative;  ///< areas, y down
+    SetupTriangle* triangles;                   ///< out, room for count + 1
+    std::uint64_t* covered;                     ///< out, room for count + 1
+    SetupCounts* counts;                        ///< out
+};
+
+/// A triangle in the list of a tile.
+struct TileEntry {
+    std::uint64_t covered;   ///< pixels of a tiny triangle in this tile, 0 of others
+    std::uint32_t triangle;  ///< index into those of its chunk
+    std::uint8_t x, y;       ///< tile pixel of the mask's bit 0
+};
+
+/// What a fragment of a draw has to pass: 1: a new depth <, ==, > the old one passes; and whether
+/// it replaces the depth.
+struct DepthRule {
+    std::uint8_t pass_less, pass_equal, pass_greater, write;
+};
+
 /// What a mesh's vertex may hand to the interpolators, by number.
 struct VertexValue {
     static constexpr std::int8_t none = -1;
@@ -170,6 +245,22 @@ struct RasterizeCtx {
     std::uint32_t* id;     ///< kTilePixels, or null
     float* block_far;      ///< kTileBlocks
     std::uint64_t* drawn;  ///< out, `count` elements
+};
+
+/// The same for tiny triangles, whose coverage is known, `count` entries of a tile's list. The ids
+/// are first_id and those that follow; offset_x of the TileTriangle would be left - reference_x.
+/// Pixels of a mask lie inside the tile.
+struct RasterizeTinyCtx {
+    const TileEntry* entries;
+    int count;
+    const SetupTriangle* triangles;
+    DepthRule rule;
+    std::int32_t left, top;  ///< pixel of the frame at the tile's corner
+    std::uint32_t first_id;
+    float* depth;          ///< kTilePixels, and one more that may hold anything afterwards
+    std::uint32_t* id;     ///< likewise; null: depths alone
+    float* block_far;      ///< kTileBlocks
+    std::uint64_t* drawn;  ///< out, `count` elements; unused without ids
 };
 
 /// One triangle's coverage and depth as RasterizeCtx has them, for draws that need order: in place

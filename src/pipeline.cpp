@@ -98,7 +98,7 @@ struct Renderer::State {
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
     void shade_visible(Worker& worker);
-    void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const std::uint32_t> triangles);
+    void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const TileEntry> entries);
     float* saved_depth(std::int32_t x, std::int32_t y);
     OutputTile output_of(Worker& worker) const;
 
@@ -279,7 +279,7 @@ void Renderer::State::bin(FrameStats& stats) {
         const ChunkRange& range = ranges[first + i];
         const Draw& draw = *draws[range.draw];
         chunks[i]->fill({draw.mesh(), range.draw, draw.facing, frame.viewport, size}, range.first,
-                        range.last);
+                        range.last, kernels);
         return chunks[i]->bytes();
     };
     const bool all = first == 0 && !did_not_fit && fill_all(left, fill);
@@ -386,12 +386,12 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     }
     worker.shader.begin({visibility.left(), visibility.top(), output_of(worker)});
     for (const auto& chunk : binned) {
-        const std::span<const std::uint32_t> triangles = chunk->tile(x, y);
-        if (triangles.empty()) continue;
-        if (draws[chunk->triangles()[triangles.front()].draw]->ordered) {
+        const std::span<const TileEntry> entries = chunk->tile(x, y);
+        if (entries.empty()) continue;
+        if (draws[chunk->triangles()[entries.front().triangle].draw]->ordered) {
             shade_visible(worker);
             visibility.forget();
-            draw_ordered(worker, *chunk, triangles);
+            draw_ordered(worker, *chunk, entries);
         } else {
             worker.shader.flush(kernels);
             const StageScope scope(FrameStage::coverage, 0, worker.clock);
@@ -438,11 +438,12 @@ void Renderer::State::shade_visible(Worker& worker) {
 
 /// The triangles of a chunk in this tile, one after the other.
 void Renderer::State::draw_ordered(Worker& worker, const Chunk& chunk,
-                                   std::span<const std::uint32_t> triangles) {
+                                   std::span<const TileEntry> entries) {
     PixelMask passed;
-    worker.shader.start_draw(shaded_draws[chunk.triangles()[triangles.front()].draw], kernels);
-    for (const std::uint32_t i : triangles) {
-        const SetupTriangle& triangle = chunk.triangles()[i];
+    worker.shader.start_draw(shaded_draws[chunk.triangles()[entries.front().triangle].draw],
+                             kernels);
+    for (const TileEntry& entry : entries) {
+        const SetupTriangle& triangle = chunk.triangles()[entry.triangle];
         {
             const StageScope scope(FrameStage::coverage, 0, worker.clock);
             if (!worker.visibility.cover(triangle, depth_rules[triangle.draw], kernels, passed))

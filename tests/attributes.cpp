@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <burnish/combiner.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
 #include <cmath>
@@ -136,7 +137,7 @@ class Measure {
         const FrameSize size{m_scene.scene.width, m_scene.scene.height};
         Chunk chunk;
         chunk.fill({m_draw.mesh(), 0, Facing::any, m_frame.viewport, size}, 0,
-                   m_draw.triangle_count());
+                   m_draw.triangle_count(), m_kernels);
         const DepthRule rule{1, 0, 0, 1};
         TileVisibility tile;
         for (std::int32_t y = 0; y * kTileSize < size.height; ++y) {
@@ -314,6 +315,25 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Attributes, testing::Values("ellipsoid", "floor
                          [](const testing::TestParamInfo<const char*>& test) {
                              return std::string(test.param);
                          });
+
+/// What a mesh's triangles interpolate for a program that passes a register on.
+int interpolated(Register passed_on) {
+    using namespace combine;
+    ProgramBuilder p;
+    p.lerp(raw(Register::zero), raw(Register::zero), raw(Register::zero), raw(passed_on));
+    p.out_alpha(alpha(one()));
+    ProgramMaterial material;
+    material.combiners = p.build();
+    material.units = {std::make_shared<const Texture>(Image8(1, 1), Sampler{})};
+    Shading shading;
+    plan_shading(shading, {&material, 1}, machine_profile("geforce256"), true);
+    return shading.interpolated();
+}
+
+TEST(Planning, TrianglesInterpolateNothingForAProgramThatReadsNothing) {
+    EXPECT_EQ(interpolated(Register::const0), 0);
+    EXPECT_EQ(interpolated(tex(0)), kUvAttributes);
+}
 
 }  // namespace
 }  // namespace burnish

@@ -200,7 +200,8 @@ TEST(ClipRegion, VisibleCornersKeepTheirPlaces) {
         }
         const std::array<std::uint32_t, 3> indices{0, 1, 2};
         Chunk chunk;
-        chunk.fill({{screen, homogeneous, indices}, 0, Facing::any, viewport, kView}, 0, 1);
+        chunk.fill({{screen, homogeneous, indices}, 0, Facing::any, viewport, kView}, 0, 1,
+                   table_reference());
         ASSERT_EQ(chunk.counts().clipped, 1U) << "seed " << seed;
         const int corners = clip_triangle(homogeneous[0], homogeneous[1], homogeneous[2]).count;
         // Parts that cover no pixel centre are dropped, and their corners with them.
@@ -228,14 +229,14 @@ std::vector<int> layers(const KernelTable& kernels, const Mesh& mesh, const Came
                       glm::dmat4(place));
     const OnScreen seen(kernels, mesh, m, viewport);
     Chunk chunk;
-    chunk.fill({seen.mesh(), 0, Facing::any, viewport, kFrame}, 0, mesh.triangle_count());
+    chunk.fill({seen.mesh(), 0, Facing::any, viewport, kFrame}, 0, mesh.triangle_count(), kernels);
     counts = chunk.counts();
     TilePainter painter(kernels);
     std::vector<int> result(static_cast<std::size_t>(kFrame.width * kFrame.height), 0);
     for (int ty = 0; ty * kTileSize < kFrame.height; ++ty) {
         for (int tx = 0; tx * kTileSize < kFrame.width; ++tx) {
-            for (const std::uint32_t i : chunk.tile(tx, ty)) {
-                if (!painter.draw(chunk.triangles()[i], tx, ty)) continue;
+            for (const TileEntry& entry : chunk.tile(tx, ty)) {
+                if (!painter.draw(chunk, entry, tx, ty)) continue;
                 for (int y = ty * kTileSize; y < std::min((ty + 1) * kTileSize, kFrame.height); ++y)
                     for (int x = tx * kTileSize; x < std::min((tx + 1) * kTileSize, kFrame.width);
                          ++x)

@@ -16,6 +16,7 @@
 #include "kernel_test.hpp"
 #include "raster/bin.hpp"
 #include "tests/screen_mesh.hpp"
+#include "tests/set_up.hpp"
 
 namespace burnish {
 namespace {
@@ -78,10 +79,17 @@ class Canvas {
     /// Corners to a triangle and its pixels; nothing for one without area or inside the frame.
     template <class F>
     int draw(Point a, Point b, Point c, F&& f) {
-        SetupTriangle triangle{};
-        const SetupResult result =
-            setup_triangle(vertex(a), vertex(b), vertex(c), Facing::any, kFrame, triangle);
-        return result == SetupResult::drawn ? draw(triangle, f) : 0;
+        const OneTriangle one = set_up(m_kernels, {{vertex(a), vertex(b), vertex(c)}}, kFrame);
+        if (one.counts.drawn == 0) return 0;
+        std::uint64_t mask = 0;
+        const int covered = draw(one.triangle, [&](int x, int y) {
+            f(x, y);
+            const PixelRect& box = one.triangle.box;
+            if (one.covered != 0)
+                mask |= std::uint64_t{1} << ((y - box.y0) * kTinySize + x - box.x0);
+        });
+        EXPECT_EQ(one.covered, mask) << "mask of a tiny triangle";
+        return covered;
     }
 
   private:
@@ -314,7 +322,7 @@ void check_closed(const MeshData& data, const glm::mat4& place, const KernelTabl
     for (const auto& [facing, sign] :
          {std::pair{Facing::front_only, 1}, std::pair{Facing::back_only, -1}}) {
         Chunk chunk;
-        chunk.fill({seen.mesh(), 0, facing, viewport, kFrame}, 0, mesh.triangle_count());
+        chunk.fill({seen.mesh(), 0, facing, viewport, kFrame}, 0, mesh.triangle_count(), kernels);
         clipped += chunk.counts().clipped;
         for (const SetupTriangle& t : chunk.triangles()) {
             canvas.draw(t, [&, s = sign](int x, int y) { counts.at(x, y) += s; });
@@ -362,14 +370,12 @@ TEST(TileTriangles, KeepTheirRanges) {
             return Point{random.between(-8192 * 256, 24576 * 256 - 1),
                          random.between(-8192 * 256, 24576 * 256 - 1)};
         };
-        SetupTriangle triangle{};
-        if (setup_triangle(vertex(corner()), vertex(corner()), vertex(corner()), Facing::any,
-                           kLargest, triangle) != SetupResult::drawn) {
-            continue;
-        }
+        const std::array corners{vertex(corner()), vertex(corner()), vertex(corner())};
+        const OneTriangle one = set_up(table_reference(), corners, kLargest);
+        if (one.counts.drawn == 0) continue;
         const std::int32_t tx = random.between(0, 255), ty = random.between(0, 255);
         TileTriangle seen{};
-        if (!tile_triangle(triangle, tx, ty, seen)) continue;
+        if (!tile_triangle(one.triangle, tx, ty, seen)) continue;
         for (int e = 0; e < seen.edges; ++e) {
             EXPECT_LE(std::int64_t{std::abs(seen.a[e])} + std::abs(seen.b[e]),
                       std::int64_t{1} << 24);

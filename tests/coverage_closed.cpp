@@ -27,7 +27,8 @@ class Balance {
   public:
     Balance(const KernelTable& kernels, const MeshData& data, const Camera& camera,
             const glm::mat4& place)
-        : m_painter(kernels),
+        : m_kernels(kernels),
+          m_painter(kernels),
           m_mesh(data),
           m_screen(m_mesh.vertex_count()),
           m_homogeneous(m_mesh.vertex_count()) {
@@ -61,19 +62,19 @@ class Balance {
     void add(Facing facing, int sign) {
         Chunk chunk;
         chunk.fill({{m_screen, m_homogeneous, m_mesh.indices()}, 0, facing, m_viewport, kFrame}, 0,
-                   m_mesh.triangle_count());
+                   m_mesh.triangle_count(), m_kernels);
         m_clipped += chunk.counts().clipped;
         for (int y = 0; y * kTileSize < kFrame.height; ++y) {
             for (int x = 0; x * kTileSize < kFrame.width; ++x) {
-                for (const std::uint32_t i : chunk.tile(x, y)) {
-                    add_in_tile(chunk.triangles()[i], x, y, sign);
+                for (const TileEntry& entry : chunk.tile(x, y)) {
+                    add_in_tile(chunk, entry, x, y, sign);
                 }
             }
         }
     }
-    void add_in_tile(const SetupTriangle& triangle, int tile_x, int tile_y, int sign) {
-        if (!m_painter.draw(triangle, tile_x, tile_y)) return;
-        const PixelRect& box = triangle.box;
+    void add_in_tile(const Chunk& chunk, const TileEntry& entry, int tile_x, int tile_y, int sign) {
+        if (!m_painter.draw(chunk, entry, tile_x, tile_y)) return;
+        const PixelRect& box = chunk.triangles()[entry.triangle].box;
         for (int y = 0; y < kTileSize; ++y) {
             for (int x = 0; x < kTileSize; ++x) {
                 const int px = tile_x * kTileSize + x, py = tile_y * kTileSize + y;
@@ -84,6 +85,7 @@ class Balance {
         }
     }
 
+    const KernelTable& m_kernels;
     TilePainter m_painter;
     Mesh m_mesh;
     std::vector<ScreenVertex> m_screen;

@@ -11,6 +11,7 @@
 #include "kernel_test.hpp"
 #include "raster/bin.hpp"
 #include "tests/exact_coverage.hpp"
+#include "tests/set_up.hpp"
 #include "tests/tile_painter.hpp"
 
 namespace burnish {
@@ -94,13 +95,11 @@ TEST_P(Limits, TilesOfTheLargestFrameAreExact) {
             return ScreenVertex{static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y),
                                 0.5F, 0};
         };
-        SetupTriangle triangle{};
-        if (setup_triangle(screen(t[0]), screen(t[1]), screen(t[2]), Facing::any, kLargest,
-                           triangle) != SetupResult::drawn) {
-            continue;
-        }
+        const OneTriangle one =
+            set_up(table(), {{screen(t[0]), screen(t[1]), screen(t[2])}}, kLargest);
+        if (one.counts.drawn == 0) continue;
         const auto [tile_x, tile_y] = tile_at_an_edge(t, random);
-        const bool drawn = painter.draw(triangle, tile_x, tile_y);
+        const bool drawn = painter.draw(one.triangle, tile_x, tile_y);
         if (drawn) {
             ASSERT_NO_FATAL_FAILURE(expect_int32(painter.seen())) << "seed " << seed;
         }
@@ -136,7 +135,7 @@ TEST(Bins, OfTheLargestFrameMissNoTile) {
     const std::vector<HomogeneousVertex> homogeneous(screen.size());
     Chunk chunk;
     chunk.fill({{screen, homogeneous, indices}, 0, Facing::any, {}, kLargest}, 0,
-               indices.size() / 3);
+               indices.size() / 3, table_reference());
     int covered = 0;
     for (std::size_t k = 0; k < chunk.triangles().size(); ++k) {
         const exact::Triangle t = exact::corners(chunk.triangles()[k]);
@@ -147,7 +146,8 @@ TEST(Bins, OfTheLargestFrameMissNoTile) {
             if (px < 0 || py < 0 || px >= kLargest.width || py >= kLargest.height) continue;
             if (exact::covers(t, px, py) == 0) continue;
             const auto list = chunk.tile(px / kTileSize, py / kTileSize);
-            ASSERT_EQ(std::count(list.begin(), list.end(), k), 1) << px << ", " << py;
+            const auto is_it = [&](const TileEntry& entry) { return entry.triangle == k; };
+            ASSERT_EQ(std::count_if(list.begin(), list.end(), is_it), 1) << px << ", " << py;
             ++covered;
         }
     }

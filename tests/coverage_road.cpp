@@ -12,6 +12,7 @@
 #include "geometry/clip.hpp"
 #include "kernel_test.hpp"
 #include "tests/exact_coverage.hpp"
+#include "tests/set_up.hpp"
 #include "tests/tile_painter.hpp"
 #include "tests/vertex_color.hpp"
 
@@ -44,16 +45,16 @@ exact::Point point(const ScreenVertex& v) {
 class Layers {
   public:
     explicit Layers(const KernelTable& kernels)
-        : m_painter(kernels), m_covered(pixels(), 0), m_signed(pixels(), 0) {}
+        : m_kernels(kernels), m_painter(kernels), m_covered(pixels(), 0), m_signed(pixels(), 0) {}
 
     /// Fails the test where a pixel differs from the oracle.
     void draw(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
         ++m_triangles;
         const exact::Triangle corners{point(a), point(b), point(c)};
-        SetupTriangle triangle{};
-        const SetupResult result = setup_triangle(a, b, c, Facing::any, kFrame, triangle);
-        ASSERT_EQ(result == SetupResult::degenerate, exact::twice_area(corners) == 0);
-        if (result != SetupResult::drawn) return expect_nothing(corners);
+        const OneTriangle one = set_up(m_kernels, {{a, b, c}}, kFrame);
+        const SetupTriangle& triangle = one.triangle;
+        ASSERT_EQ(one.counts.degenerate == 1, exact::twice_area(corners) == 0);
+        if (one.counts.drawn == 0) return expect_nothing(corners);
         for (int y = triangle.box.y0 / kTileSize; y <= triangle.box.y1 / kTileSize; ++y) {
             for (int x = triangle.box.x0 / kTileSize; x <= triangle.box.x1 / kTileSize; ++x) {
                 ASSERT_NO_FATAL_FAILURE(draw_in_tile(corners, triangle, x, y));
@@ -113,6 +114,7 @@ class Layers {
         }
     }
 
+    const KernelTable& m_kernels;
     TilePainter m_painter;
     std::vector<int> m_covered, m_signed;
     int m_triangles = 0;

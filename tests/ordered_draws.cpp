@@ -313,7 +313,7 @@ Framebuffer draw_tile(const Scene& scene, const KernelTable& kernels,
         Chunk& chunk = chunks[i];
         chunk.fill({draws[i]->mesh(), static_cast<std::uint32_t>(i), draws[i]->facing,
                     view.viewport, size},
-                   0, draws[i]->triangle_count());
+                   0, draws[i]->triangle_count(), kernels);
         if (!draws[i]->ordered) {
             shader.flush(kernels);
             visibility.draw(chunk, rules, kernels);
@@ -322,9 +322,11 @@ Framebuffer draw_tile(const Scene& scene, const KernelTable& kernels,
         shade_visible();
         shader.start_draw(shaded[i], kernels);
         PixelMask passed;
-        for (const std::uint32_t k : chunk.tile(0, 0))
-            if (visibility.cover(chunk.triangles()[k], rules[i], kernels, passed))
-                shader.add(chunk.triangles()[k], passed, kernels);
+        for (const TileEntry& entry : chunk.tile(0, 0)) {
+            const SetupTriangle& triangle = chunk.triangles()[entry.triangle];
+            if (visibility.cover(triangle, rules[i], kernels, passed))
+                shader.add(triangle, passed, kernels);
+        }
     }
     shader.flush(kernels);
     shade_visible();

@@ -180,7 +180,7 @@ TEST(Threads, AccountsAreComplete) {
                 EXPECT_EQ(stats.tile_costs.size(), 6U);
                 if (cap == 1) continue;
                 EXPECT_EQ(stages["setup"].items, stats.triangles);
-                EXPECT_EQ(stages["bin"].items, stats.binned_triangles);
+                EXPECT_GE(stages["bin"].items, stats.binned_triangles);  // some miss all pixels
                 EXPECT_EQ(stages["resolve"].items, std::uint64_t{kWidth * kHeight});
                 if (alone.empty()) alone = counts;
                 EXPECT_EQ(counts, alone) << threads << " threads";

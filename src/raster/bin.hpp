@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "geometry/triangle.hpp"
+#include "kernels/kernel_table.hpp"
 #include "raster/setup.hpp"
 
 namespace burnish {
@@ -17,7 +17,7 @@ struct BinCounts {
     std::uint64_t nonfinite = 0;
     std::uint64_t degenerate = 0;
     std::uint64_t clipped = 0;
-    std::uint64_t binned = 0;
+    std::uint64_t binned = 0;  ///< in the list of a tile
 };
 
 /// Where a chunk's triangles come from and where they go.
@@ -29,23 +29,20 @@ struct ChunkSource {
     FrameSize frame;
 };
 
-/// A triangle of the draw: its number, and the vertices at its corners.
-struct SourceTriangle {
-    std::uint32_t number;
-    std::array<std::uint32_t, 3> vertex;
-};
-
 /// Consecutive triangles of one draw, set up and sorted into the tiles that they touch. Chunks are
 /// filled in parallel and read in order, so no image depends on the schedule. Memory is kept for
 /// the next frame.
 class Chunk {
   public:
     /// Triangles `first` .. `last` - 1 of the source.
-    void fill(const ChunkSource& source, std::size_t first, std::size_t last);
+    void fill(const ChunkSource& source, std::size_t first, std::size_t last,
+              const KernelTable& kernels);
 
-    /// Triangles that touch the tile at (x, y), in submission order: indices into `triangles()`.
-    [[nodiscard]] std::span<const std::uint32_t> tile(std::int32_t x, std::int32_t y) const;
-    [[nodiscard]] const std::vector<SetupTriangle>& triangles() const { return m_triangles; }
+    /// Triangles that touch the tile at (x, y), in submission order.
+    [[nodiscard]] std::span<const TileEntry> tile(std::int32_t x, std::int32_t y) const;
+    [[nodiscard]] std::span<const SetupTriangle> triangles() const {
+        return {m_triangles.data(), m_count};
+    }
     [[nodiscard]] const BinCounts& counts() const { return m_counts; }
     /// Bytes in use.
     [[nodiscard]] std::size_t bytes() const;
@@ -55,23 +52,24 @@ class Chunk {
                      std::span<std::uint64_t> sums, std::size_t columns) const;
 
   private:
-    void add(const ChunkSource& source, const SourceTriangle& from);
-    void add_clipped(const ChunkSource& source, const SourceTriangle& from);
-    SetupResult add_projected(const ChunkSource& source, const SourceTriangle& from, bool clipped,
-                              const ScreenVertex& v0, const ScreenVertex& v1,
-                              const ScreenVertex& v2);
-    void add_to_tiles(const SetupTriangle& triangle, std::uint32_t index);
+    SetupCounts set_up(SetupCtx ctx, const KernelTable& kernels);
+    void add_clipped(const ChunkSource& source, std::size_t number, SetupCtx ctx,
+                     const KernelTable& kernels);
+    void add_to_tiles(std::uint32_t index);
+    void add_entry(std::int32_t x, std::int32_t y, const TileEntry& entry);
     void sort_into_tiles(FrameSize frame);
 
-    struct TileEntry {
-        std::uint16_t x, y;
-        std::uint32_t triangle;
+    struct PlacedEntry {
+        std::uint16_t x, y;  ///< tile
+        TileEntry entry;
     };
 
-    std::vector<SetupTriangle> m_triangles;
-    std::vector<TileEntry> m_unsorted;
-    std::vector<std::uint32_t> m_first;    ///< per tile of the rectangle, one more at the end
-    std::vector<std::uint32_t> m_entries;  ///< triangles, tile by tile
+    std::vector<SetupTriangle> m_triangles;  ///< the first m_count are in use
+    std::vector<std::uint64_t> m_covered;    ///< of each, as SetupCtx has it
+    std::size_t m_count = 0;
+    std::vector<PlacedEntry> m_unsorted;
+    std::vector<std::uint32_t> m_first;  ///< per tile of the rectangle, one more at the end
+    std::vector<TileEntry> m_entries;    ///< tile by tile
     std::int32_t m_x0 = 0, m_y0 = 0, m_width = 0, m_height = 0;  ///< rectangle of touched tiles
     BinCounts m_counts;
 };

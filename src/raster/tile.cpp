@@ -20,9 +20,9 @@ void set_rule(const DepthRule& rule, TileTriangle& triangle) {
 }  // namespace
 
 TileVisibility::TileVisibility()
-    : m_depth(kTilePixels),
+    : m_depth(kTilePixels + 1),
       m_block_far(kTileBlocks),
-      m_id(kTilePixels),
+      m_id(kTilePixels + 1),
       m_pixels(kTilePixels + kPixelSlack) {}
 
 void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth) {
@@ -46,17 +46,61 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
     if (!shows_anything()) std::fill(m_id.begin(), m_id.end(), kNoTriangle);
-    draw_triangles(chunk, rules, kernels, m_id.data());
+    draw_entries(chunk, rules, kernels, m_id.data());
 }
 
 void TileVisibility::draw_depths(const Chunk& chunk, std::span<const DepthRule> rules,
                                  const KernelTable& kernels) {
-    draw_triangles(chunk, rules, kernels, nullptr);
+    draw_entries(chunk, rules, kernels, nullptr);
 }
 
 /// `id`: the visibility buffer, or null for the depths alone.
-void TileVisibility::draw_triangles(const Chunk& chunk, std::span<const DepthRule> rules,
-                                    const KernelTable& kernels, std::uint32_t* id) {
+void TileVisibility::draw_entries(const Chunk& chunk, std::span<const DepthRule> rules,
+                                  const KernelTable& kernels, std::uint32_t* id) {
+    const std::span<const TileEntry> entries = chunk.tile(m_tile_x, m_tile_y);
+    const auto is_tiny = [](const TileEntry& entry) { return entry.covered != 0; };
+    for (auto first = entries.begin(); first != entries.end();) {
+        const bool tiny = is_tiny(*first);
+        const auto last = tiny ? std::find_if_not(first, entries.end(), is_tiny)
+                               : std::find_if(first, entries.end(), is_tiny);
+        if (tiny) {
+            draw_tiny(chunk, {first, last}, rules, kernels, id);
+        } else {
+            draw_others(chunk, {first, last}, rules, kernels, id);
+        }
+        first = last;
+    }
+}
+
+void TileVisibility::draw_tiny(const Chunk& chunk, std::span<const TileEntry> entries,
+                               std::span<const DepthRule> rules, const KernelTable& kernels,
+                               std::uint32_t* id) {
+    const SetupTriangle* const triangles = chunk.triangles().data();
+    const DepthRule& rule = rules[triangles[entries.front().triangle].draw];
+    RasterizeTinyCtx ctx{entries.data(),
+                         static_cast<int>(entries.size()),
+                         triangles,
+                         rule,
+                         left(),
+                         top(),
+                         0,
+                         m_depth.data(),
+                         id,
+                         m_block_far.data(),
+                         nullptr};
+    if (id != nullptr) {
+        const std::size_t first = m_triangles.size();
+        for (const TileEntry& entry : entries) m_triangles.push_back(triangles + entry.triangle);
+        m_drawn.resize(m_triangles.size());
+        ctx.first_id = static_cast<std::uint32_t>(first);
+        ctx.drawn = m_drawn.data() + first;
+    }
+    kernels.rasterize_tiny(ctx);
+}
+
+void TileVisibility::draw_others(const Chunk& chunk, std::span<const TileEntry> entries,
+                                 std::span<const DepthRule> rules, const KernelTable& kernels,
+                                 std::uint32_t* id) {
     TileTriangle batch[kBatch];
     std::uint64_t drawn[kBatch];
     RasterizeCtx ctx{batch, 0, m_depth.data(), id, m_block_far.data(), drawn};
@@ -65,13 +109,12 @@ void TileVisibility::draw_triangles(const Chunk& chunk, std::span<const DepthRul
         if (id != nullptr) m_drawn.insert(m_drawn.end(), drawn, drawn + ctx.count);
         ctx.count = 0;
     };
-    const std::span<const std::uint32_t> entries = chunk.tile(m_tile_x, m_tile_y);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         constexpr std::size_t kAhead = 4;  // a mesh's triangles lie far apart along a tile
         if (i + kAhead < entries.size()) {
-            __builtin_prefetch(&chunk.triangles()[entries[i + kAhead]]);
+            __builtin_prefetch(&chunk.triangles()[entries[i + kAhead].triangle]);
         }
-        const SetupTriangle& triangle = chunk.triangles()[entries[i]];
+        const SetupTriangle& triangle = chunk.triangles()[entries[i].triangle];
         TileTriangle& seen = batch[ctx.count];
         if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) continue;
         const DepthRule& rule = rules[triangle.draw];

@@ -217,7 +217,9 @@ class Planner {
         const bool used = m_lighting.half_vector >= 0 || m_lighting.light_vector >= 0 ||
                           m_lighting.view_vector >= 0 || m_lighting.n_dot_l >= 0 ||
                           m_lighting.h_dot_l >= 0;
-        if (used) m_shading.inputs.emplace_back(m_lighting);
+        if (!used) return;
+        m_shading.reads_frame = true;
+        m_shading.inputs.emplace_back(m_lighting);
     }
 
     /// Attribute plane of a component of a unit's coordinates, -1 where it is that of (0, 0, 0, 1).
@@ -232,7 +234,11 @@ class Planner {
                         "raw vertices carry no normals: their coordinates can only be 'uv' or "
                         "'vertex'");
         }
-        if (own) return input == CoordinateInput::uv && component < kUvAttributes ? component : -1;
+        if (own) {
+            if (input != CoordinateInput::uv || component >= kUvAttributes) return -1;
+            m_shading.reads_frame = true;
+            return component;
+        }
         if (component == 3) return -1;
         const ColorInput vector = vector_of(input);
         return is_coded(input) ? coded_component(vector, component)
@@ -506,7 +512,7 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     shading.textures.clear();
     shading.varying_list.clear();
     shading.further_lights.clear();
-    shading.reads_light = false;
+    shading.reads_light = shading.reads_frame = false;
     bool quads = false;
     for (std::size_t i = 1; i < programs.size(); ++i) {
         plan_light(shading, programs[i], machine, is_mesh, static_cast<int>(i), wanted);
@@ -517,6 +523,8 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     shading.quads |= quads;
     shading.result = shading.program.result;
     if (programs.size() > 1) plan_sums(shading);
+    const bool flat = !shading.reads_frame && shading.varying_list.empty();
+    if (flat && !wanted.everything) shading.frame_attributes = 0;
 }
 
 }  // namespace burnish

@@ -49,10 +49,10 @@ class PixelWatch {
     }
 
     void draw_chunk(std::uint32_t number, std::size_t first, std::size_t last) {
-        m_chunk.fill(source(number), first, last);
+        m_chunk.fill(source(number), first, last, table_reference());
         const Draw& draw = *m_frame.draws[number];
-        for (const std::uint32_t place : m_chunk.tile(m_x / kTileSize, m_y / kTileSize)) {
-            const SetupTriangle& triangle = m_chunk.triangles()[place];
+        for (const TileEntry& entry : m_chunk.tile(m_x / kTileSize, m_y / kTileSize)) {
+            const SetupTriangle& triangle = m_chunk.triangles()[entry.triangle];
             std::optional<float> depth = depth_alone(triangle);
             if (!depth || !covers(triangle, draw.depth, m_depth, m_block_far)) continue;
             if (draw.output.late_depth && !(depth = late_depth(draw, triangle))) continue;

@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "kernel_test.hpp"
+
+/// Triangles from corners, and tiny ones by their masks.
+namespace burnish {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
+
+// ---- setup
+
+/// Vertices that triangles share. Corners of one triangle lie anywhere, near each other, or on
+/// pixel centres.
+struct Soup {
+    std::vector<ScreenVertex> vertices;
+    std::vector<std::uint32_t> indices;
+    SetupCtx ctx{};
+
+    Soup(Random& random, int triangles) {
+        ctx.count = triangles;
+        ctx.number = static_cast<std::uint32_t>(random.below(1 << 30));
+        ctx.draw = static_cast<std::uint32_t>(random.below(1 << 30));
+        ctx.width = random.between(1, 300);
+        ctx.height = random.between(1, 300);
+        ctx.drop_positive = static_cast<std::uint8_t>(random.chance(4) ? 1 : 0);
+        ctx.drop_negative = static_cast<std::uint8_t>(random.chance(4) ? 1 : 0);
+        const int extent = random.pick(std::array{1, 3, 6, 9, 40, 2000});
+        const int step = random.pick(std::array{1, 1, 16, 128, 256});
+        const int codes = random.chance(3) ? 3 : 60;
+        for (int i = 0; i < triangles; ++i) {
+            const int x = random.between(-8, ctx.width + 8), y = random.between(-8, ctx.height + 8);
+            for (int corner = 0; corner < 3; ++corner) {
+                const bool again = random.chance(6) && !vertices.empty();
+                indices.push_back(static_cast<std::uint32_t>(
+                    again ? random.below(static_cast<int>(vertices.size()))
+                          : static_cast<int>(vertices.size())));
+                if (again) continue;
+                vertices.push_back(vertex(random, x, y, extent, step));
+                if (random.chance(codes))
+                    vertices.back().outcode = 1U << random.between(0, random.chance(9) ? 7 : 3);
+            }
+        }
+        ctx.vertices = vertices.data();
+        ctx.indices = indices.data();
+    }
+
+    static ScreenVertex vertex(Random& random, int x, int y, int extent, int step) {
+        const auto place = [&](int pixel) {
+            const int at = 256 * pixel + random.between(-128 * extent, 128 * extent);
+            return at / step * step + (step == 256 ? 128 : 0);
+        };
+        const auto end = [&] { return random.pick(std::array{-8193 * 256, 24576 * 256}); };
+        ScreenVertex v{place(x), place(y), 0.0F, 0};
+        if (random.chance(100)) v.x = end();
+        if (random.chance(100)) v.y = end();
+        v.z = random.chance(4) ? random.pick(std::array{0.0F, -0.0F, 0.5F, 1.0F})
+                               : random.real(0.0F, 1.0F);
+        return v;
+    }
+};
+
+struct Triangles {
+    AlignedVector<SetupTriangle> triangles;
+    std::vector<std::uint64_t> covered;
+    SetupCounts counts{-1, -1, -1, -1};
+
+    Triangles(const KernelTable& table, SetupCtx ctx)
+        : triangles(static_cast<std::size_t>(ctx.count) + 1),
+          covered(static_cast<std::size_t>(ctx.count) + 1) {
+        ctx.triangles = triangles.data();
+        ctx.covered = covered.data();
+        ctx.counts = &counts;
+        table.setup(ctx);
+    }
+};
+
+void expect_same(const Triangles& got, const Triangles& want, const std::string& where) {
+    ASSERT_EQ(got.counts.taken, want.counts.taken) << where;
+    ASSERT_EQ(got.counts.drawn, want.counts.drawn) << where;
+    ASSERT_EQ(got.counts.nonfinite, want.counts.nonfinite) << where;
+    ASSERT_EQ(got.counts.degenerate, want.counts.degenerate) << where;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(want.counts.drawn); ++i) {
+        ASSERT_EQ(got.covered[i], want.covered[i]) << where << ", drawn " << i;
+        ASSERT_EQ(std::memcmp(&got.triangles[i], &want.triangles[i], sizeof(SetupTriangle)), 0)
+            << where << ", drawn " << i << ", number " << want.triangles[i].number;
+    }
+}
+
+TEST_P(KernelTest, SetupOfRandomTriangles) {
+    int drawn = 0, tiny = 0, stopped = 0, dropped = 0;
+    for (unsigned seed = 0; seed < 4000; ++seed) {
+        Random random(seed);
+        const Soup soup(random, random.between(0, 70));
+        const Triangles got(table(), soup.ctx), want(table_reference(), soup.ctx);
+        ASSERT_NO_FATAL_FAILURE(
+            expect_same(got, want, name("setup") + ", seed " + std::to_string(seed)));
+        drawn += want.counts.drawn;
+        tiny += static_cast<int>(
+            want.counts.drawn -
+            std::count(want.covered.begin(), want.covered.begin() + want.counts.drawn, 0U));
+        stopped += want.counts.taken < soup.ctx.count ? 1 : 0;
+        dropped += want.counts.taken - want.counts.drawn;
+    }
+    EXPECT_GT(drawn - tiny, 5000);
+    EXPECT_GT(tiny, 5000);
+    EXPECT_GT(stopped, 500);
+    EXPECT_GT(dropped, 10000);
+}
+
+// ---- rasterize_tiny
+
+struct Tile {
+    AlignedVector<float> depth = AlignedVector<float>(kTilePixels + 1, 1.0F);
+    AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels + 1, kNoTriangle);
+    AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
+    std::vector<std::uint64_t> drawn;
+
+    void run(const KernelTable& table, const std::vector<TileEntry>& entries,
+             const std::vector<SetupTriangle>& triangles, const DepthRule& rule,
+             bool depth_alone = false) {
+        drawn.assign(entries.size(), ~std::uint64_t{0});
+        table.rasterize_tiny({entries.data(), static_cast<int>(entries.size()), triangles.data(),
+                              rule, 640, 128, 5, depth.data(), depth_alone ? nullptr : id.data(),
+                              block_far.data(), depth_alone ? nullptr : drawn.data()});
+    }
+};
+
+SetupTriangle random_plane(Random& random) {
+    SetupTriangle t{};
+    t.reference_x = static_cast<std::int16_t>(random.between(600, 750));
+    t.reference_y = static_cast<std::int16_t>(random.between(100, 250));
+    t.z = random.chance(3) ? 0.5F : random.real(0.0F, 1.0F);
+    t.zx = random.chance(3) ? 0.0F : random.real(-0.1F, 0.1F);
+    t.zy = random.chance(3) ? 0.0F : random.real(-0.1F, 0.1F);
+    t.z_low = random.real(0.0F, 0.6F);
+    t.z_high = random.real(t.z_low, 1.0F);
+    return t;
+}
+
+/// A mask whose pixels lie in the tile: some dense, most of few rows.
+TileEntry random_entry(Random& random, std::uint32_t triangle) {
+    TileEntry entry{0, triangle, static_cast<std::uint8_t>(random.below(kTileSize)),
+                    static_cast<std::uint8_t>(random.below(kTileSize))};
+    const int columns = std::min(random.between(1, kTinySize), kTileSize - entry.x);
+    const int rows = std::min(random.between(1, kTinySize), kTileSize - entry.y);
+    while (entry.covered == 0) {
+        for (int i = 0; i < kTinySize * kTinySize; ++i) {
+            if (i % kTinySize < columns && i / kTinySize < rows && random.chance(2))
+                entry.covered |= std::uint64_t{1} << i;
+        }
+    }
+    return entry;
+}
+
+TEST_P(KernelTest, RasterizeTinyOfRandomMasks) {
+    for (unsigned seed = 0; seed < 1500; ++seed) {
+        Random random(seed);
+        std::vector<SetupTriangle> triangles(static_cast<std::size_t>(random.between(1, 60)));
+        for (SetupTriangle& t : triangles) t = random_plane(random);
+        std::vector<TileEntry> entries;
+        for (std::uint32_t i = 0; i < triangles.size(); ++i)
+            if (!random.chance(4)) entries.push_back(random_entry(random, i));
+        const auto flag = [&] { return static_cast<std::uint8_t>(random.below(2)); };
+        const DepthRule rule =
+            random.chance(2) ? DepthRule{1, 0, 0, 1} : DepthRule{flag(), flag(), flag(), flag()};
+        Tile got;
+        for (std::size_t i = 0; i < kTilePixels; ++i)
+            got.depth[i] = static_cast<float>(random.between(0, 8)) * 0.125F;
+        Tile want = got, alone = got;
+        got.run(table(), entries, triangles, rule);
+        alone.run(table(), entries, triangles, rule, true);
+        want.run(table_reference(), entries, triangles, rule);
+        const std::string where = name("rasterize_tiny") + ", seed " + std::to_string(seed);
+        for (std::size_t i = 0; i < kTilePixels; ++i) {
+            ASSERT_EQ(got.id[i], want.id[i]) << where << ", pixel " << i;
+            ASSERT_TRUE(same_bits(got.depth[i], want.depth[i])) << where << ", pixel " << i;
+            ASSERT_TRUE(same_bits(alone.depth[i], want.depth[i])) << where << ", alone, " << i;
+            ASSERT_GE(got.block_far[i / kBlockPixels], got.depth[i]) << where << ", pixel " << i;
+        }
+        ASSERT_EQ(got.drawn, want.drawn) << where;
+    }
+}
+
+}  // namespace
+}  // namespace burnish
