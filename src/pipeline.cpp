@@ -13,6 +13,7 @@
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
 #include "raster/bin.hpp"
+#include "raster/tile_order.hpp"
 #include "reference/render_double.hpp"
 #include "shade/normalisation_cube.hpp"
 #include "shade/packets.hpp"
@@ -44,7 +45,8 @@ struct ChunkRange {
 };
 
 /// What one worker needs to turn bins into pixels.
-struct Worker {
+// Lines come in pairs: what two workers write all the time must not share one.
+struct alignas(128) Worker {
     explicit Worker(PixelFormat format) : image(format) {}
     TileVisibility visibility;
     PacketShader shader;
@@ -88,7 +90,10 @@ struct Renderer::State {
                  const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void transform(const Scene& scene);
     void bin(FrameStats& stats);
-    void weigh_tiles(std::int32_t columns, std::size_t count);
+    template <class Fill>
+    bool fill_all(std::size_t count, const Fill& fill);
+    template <class Fill>
+    std::size_t fill_what_fits(std::size_t count, const Fill& fill);
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
@@ -115,10 +120,10 @@ struct Renderer::State {
     std::size_t next_range = 0;  ///< first one not binned yet
     std::vector<std::unique_ptr<Chunk>> chunks;
     std::size_t chunk_count = 0;  ///< of this round
+    bool did_not_fit = false;     ///< the chunks of the last frame
     std::vector<std::unique_ptr<Worker>> workers;
-    std::vector<std::uint32_t> weights;  ///< of tiles
-    WorkOrder order;                     ///< of tiles
-    AlignedVector<float> depth;          ///< tile by tile; only when the bins were flushed
+    TileOrder tile_order;
+    AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
     HalfVectorCube half_cube;
 };
@@ -273,12 +278,50 @@ void Renderer::State::transform(const Scene& scene) {
     }
 }
 
-/// Chunks in order until all are binned or the memory cap is met; at least one.
+/// All chunks that are left, or as many as the memory cap allows; at least one.
 void Renderer::State::bin(FrameStats& stats) {
     const StageScope scope(FrameStage::bin);
     const std::size_t first = next_range;
     const std::size_t left = ranges.size() - first;
     while (chunks.size() < left) chunks.push_back(std::make_unique<Chunk>());
+    const auto fill = [&](std::size_t i) {
+        const ChunkRange& range = ranges[first + i];
+        const Draw& draw = *draws[range.draw];
+        chunks[i]->fill({draw.mesh(), range.draw, draw.facing, frame.viewport, size}, range.first,
+                        range.last, kernels);
+        return chunks[i]->bytes();
+    };
+    const bool all = first == 0 && !did_not_fit && fill_all(left, fill);
+    chunk_count = all ? left : fill_what_fits(left, fill);
+    next_range = first + chunk_count;
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < chunk_count; ++i) {
+        const BinCounts& counts = chunks[i]->counts();
+        bytes += chunks[i]->bytes();
+        stats.triangles += counts.submitted;
+        stats.nonfinite_triangles += counts.nonfinite;
+        stats.degenerate_triangles += counts.degenerate;
+        stats.clipped_triangles += counts.clipped;
+        stats.binned_triangles += counts.binned;
+    }
+    if (first == 0) did_not_fit = chunk_count < left || bytes > memory_cap;
+}
+
+/// All chunks, each worker a part of its own: it has the vertices in its cache that it transformed.
+/// False, and to be done again, if they do not fit.
+template <class Fill>
+bool Renderer::State::fill_all(std::size_t count, const Fill& fill) {
+    std::atomic<std::size_t> bytes{0};
+    for_each_index(pool, count, 1, [&](std::size_t i, int) {
+        if (bytes.load(std::memory_order_relaxed) <= memory_cap)
+            bytes.fetch_add(fill(i), std::memory_order_relaxed);
+    });
+    return bytes.load() <= memory_cap;
+}
+
+/// Chunks in order until the memory cap is met; how many.
+template <class Fill>
+std::size_t Renderer::State::fill_what_fits(std::size_t count, const Fill& fill) {
     std::atomic<std::size_t> next{0}, bytes{0};
     pool.run([&](int) {
         for (;;) {
@@ -287,30 +330,17 @@ void Renderer::State::bin(FrameStats& stats) {
             const bool full = bytes.load(std::memory_order_relaxed) >= memory_cap;
             if (full && next.load(std::memory_order_relaxed) > 0) return;
             const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
-            if (i >= left) return;
-            const ChunkRange& range = ranges[first + i];
-            const Draw& draw = *draws[range.draw];
-            chunks[i]->fill({draw.mesh(), range.draw, draw.facing, frame.viewport, size},
-                            range.first, range.last, kernels);
-            bytes.fetch_add(chunks[i]->bytes(), std::memory_order_relaxed);
+            if (i >= count) return;
+            bytes.fetch_add(fill(i), std::memory_order_relaxed);
         }
     });
     // How many were handed out depends on the schedule; how many fit does not. The rest is binned
     // again in the next round.
-    const std::size_t filled = std::min(next.load(), left);
-    chunk_count = 0;
-    for (std::size_t used = 0; chunk_count < filled && (chunk_count == 0 || used < memory_cap);) {
-        used += chunks[chunk_count++]->bytes();
-    }
-    next_range = first + chunk_count;
-    for (std::size_t i = 0; i < chunk_count; ++i) {
-        const BinCounts& counts = chunks[i]->counts();
-        stats.triangles += counts.submitted;
-        stats.nonfinite_triangles += counts.nonfinite;
-        stats.degenerate_triangles += counts.degenerate;
-        stats.clipped_triangles += counts.clipped;
-        stats.binned_triangles += counts.binned;
-    }
+    const std::size_t filled = std::min(next.load(), count);
+    std::size_t fitting = 0;
+    for (std::size_t used = 0; fitting < filled && (fitting == 0 || used < memory_cap);)
+        used += chunks[fitting++]->bytes();
+    return fitting;
 }
 
 float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
@@ -325,8 +355,9 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (!last_round) depth.resize(count * kTilePixels);
-    weigh_tiles(columns, count);
-    order_work(weights, pool.size(), order);
+    const WorkOrder& order =
+        tile_order.plan({chunks.data(), chunk_count}, static_cast<std::size_t>(columns),
+                        static_cast<std::size_t>(rows), pool.size());
     for_each_piece(pool, order, [&](std::size_t i, int w) {
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
@@ -335,21 +366,9 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
                             fragments = worker.shader.shaded_pixels();
         draw_tile(worker, tile % columns, tile / columns, target, first_round, last_round);
         if (account)
-            account->add_tile(i, ticks() - start, weights[i],
+            account->add_tile(i, ticks() - start, tile_order.weight(i),
                               worker.shader.shaded_pixels() - fragments);
     });
-}
-
-/// What a tile will cost: its triangles, and its pixels if there are any.
-void Renderer::State::weigh_tiles(std::int32_t columns, std::size_t count) {
-    constexpr std::uint32_t kPixels =
-        200;  // shading a whole tile costs as much as so many triangles
-    weights.assign(count, 0);
-    if (pool.size() == 1 && !account) return;
-    for (std::size_t i = 0; i < chunk_count; ++i)
-        chunks[i]->add_lengths(weights, static_cast<std::size_t>(columns));
-    for (std::uint32_t& weight : weights)
-        if (weight > 0) weight += kPixels;
 }
 
 /// Everything of one tile, in one worker's cache, then once to the frame. Draws that need no order

@@ -35,20 +35,22 @@ double stage_ms(const std::vector<FrameStats>& frames, std::string_view name) {
 
 SimulatedFrame simulate(const Balance& balance, double alone_ms, double divided_ms, int workers) {
     std::vector<double> cost;
-    std::vector<std::uint32_t> weight;
-    for (const TileCost& tile : balance.tiles) {
+    std::vector<PieceOutlook> outlook;
+    for (std::size_t i = 0; i < balance.tiles.size(); ++i) {
+        const TileCost& tile = balance.tiles[i];
         cost.push_back(tile.ms);
-        weight.push_back(tile.weight);
+        const auto owner = i * static_cast<std::size_t>(workers) / balance.tiles.size();
+        outlook.push_back({tile.weight, static_cast<std::uint32_t>(owner)});
     }
     WorkOrder rows;
     rows.pieces.resize(cost.size());
     std::iota(rows.pieces.begin(), rows.pieces.end(), 0U);
     rows.shared = cost.size();
+    rows.ends.assign(static_cast<std::size_t>(workers), cost.size());
     WorkOrder drawn;
-    order_work(weight, workers, drawn);
+    order_work(outlook, workers, drawn);
     const double before = alone_ms + divided_ms / workers;
-    return {workers, before + finishing_time(cost, rows, workers),
-            before + finishing_time(cost, drawn, workers),
+    return {workers, before + finishing_time(cost, rows), before + finishing_time(cost, drawn),
             before + std::max(balance.tiles_ms / workers, balance.longest_ms)};
 }
 

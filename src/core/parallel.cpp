@@ -8,6 +8,7 @@
 #include <cfenv>
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -60,20 +61,17 @@ struct alignas(64) Share {
     }
 };
 
-/// The first `shared` of `count` to whoever is free, the rest as for_each_index says.
-void hand_out(WorkerPool& pool, std::size_t shared, std::size_t count, std::size_t grain,
-              const std::function<void(std::size_t, int)>& body) {
-    const auto workers = static_cast<std::size_t>(pool.size());
+/// Numbers 0 .. shared - 1 to whoever is free, then the parts that end at `ends`, `grain` at a
+/// time.
+void hand_out(WorkerPool& pool, std::size_t shared, std::span<const std::size_t> ends,
+              std::size_t grain, const std::function<void(std::size_t, int)>& body) {
+    const std::size_t workers = ends.size();
     Share first;
     first.end = shared;
     std::vector<Share> shares(workers);
-    const auto begin_of = [&](std::size_t share) {
-        const std::size_t begin = (count - shared) * share / workers;
-        return std::min(count, shared + (begin + grain - 1) / grain * grain);
-    };
     for (std::size_t i = 0; i < workers; ++i) {
-        shares[i].next = begin_of(i);
-        shares[i].end = i + 1 < workers ? begin_of(i + 1) : count;
+        shares[i].next = i > 0 ? ends[i - 1] : shared;
+        shares[i].end = ends[i];
     }
     pool.run([&](int worker) {
         const auto take = [&](std::size_t i) { body(i, worker); };
@@ -239,12 +237,16 @@ void WorkerPool::run_workers(const std::function<void(int)>& body) {
 
 void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, int)>& body) {
-    hand_out(pool, 0, count, grain, body);
+    const auto workers = static_cast<std::size_t>(pool.size());
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 1; i <= workers; ++i)
+        ends.push_back(std::min(count, (count * i / workers + grain - 1) / grain * grain));
+    hand_out(pool, 0, ends, grain, body);
 }
 
 void for_each_piece(WorkerPool& pool, const WorkOrder& order,
                     const std::function<void(std::size_t, int)>& body) {
-    hand_out(pool, order.shared, order.pieces.size(), 1,
+    hand_out(pool, order.shared, order.ends, 1,
              [&](std::size_t i, int worker) { body(order.pieces[i], worker); });
 }
 

@@ -46,7 +46,7 @@ class WorkerPool {
 void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, int)>& body);
 
-/// The same in the order given: body(piece, worker).
+/// The same in the order given, which has a part for each worker of `pool`: body(piece, worker).
 void for_each_piece(WorkerPool& pool, const WorkOrder& order,
                     const std::function<void(std::size_t, int)>& body);
 

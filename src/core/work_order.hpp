@@ -10,18 +10,26 @@ namespace burnish {
 /// In what order pieces of work are handed out.
 struct WorkOrder {
     std::vector<std::uint32_t> pieces;  ///< each once
-    /// The first ones are taken by whoever is free. The others are divided evenly, in this order:
-    /// each worker takes its own part one by one, then what is left of the next workers' parts.
+    /// The first ones are taken by whoever is free. The others are parts, one for each worker: who
+    /// is done with its own begins one that nobody has, then helps with the others.
     std::size_t shared = 0;
+    std::vector<std::size_t> ends;  ///< of the parts in `pieces`
 };
 
-/// Heavy pieces first and heaviest first, so that none of them begins when the others are done; the
-/// rest as it comes, since neighbours share what is in a cache. A piece is heavy if a worker that
-/// begins it last could be late by more than a sixteenth of its share of the whole.
-/// @param weight  of each piece, any unit
-void order_work(std::span<const std::uint32_t> weight, int workers, WorkOrder& order);
+/// What is known of a piece before it is done.
+struct PieceOutlook {
+    std::uint32_t weight = 0;  ///< any unit
+    std::uint32_t owner = 0;  ///< worker that has most of what it reads in its cache, if weight > 0
+};
 
-/// When the last worker is done, if every piece takes its cost and the next one is taken at once.
-double finishing_time(std::span<const double> cost, const WorkOrder& order, int workers);
+/// Heavy pieces first and heaviest first, so that none of them begins when the others are done. The
+/// rest as it comes, by owners: neighbours share what is in a cache. Pieces without weight are
+/// divided evenly. A piece is heavy if a worker that begins it last could be late by more than a
+/// sixteenth of its share of the whole.
+void order_work(std::span<const PieceOutlook> outlook, int workers, WorkOrder& order);
+
+/// When the last worker is done, if all begin at once, every piece takes its cost and the next one
+/// is taken without delay.
+double finishing_time(std::span<const double> cost, const WorkOrder& order);
 
 }  // namespace burnish

@@ -50,12 +50,17 @@ std::span<const TileEntry> Chunk::tile(std::int32_t x, std::int32_t y) const {
     return std::span(m_entries).subspan(m_first[at], m_first[at + 1] - m_first[at]);
 }
 
-void Chunk::add_lengths(std::span<std::uint32_t> lengths, std::size_t columns) const {
+void Chunk::add_lengths(std::uint64_t number, std::span<std::uint32_t> lengths,
+                        std::span<std::uint64_t> sums, std::size_t columns) const {
     std::size_t entry = 0;
     for (std::int32_t y = m_y0; y < m_y0 + m_height; ++y) {
-        std::uint32_t* row = lengths.data() + static_cast<std::size_t>(y) * columns;
-        for (std::int32_t x = m_x0; x < m_x0 + m_width; ++x, ++entry)
-            row[x] += m_first[entry + 1] - m_first[entry];
+        const auto row = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(m_x0);
+        for (std::size_t tile = row; tile < row + static_cast<std::size_t>(m_width); ++tile) {
+            const std::uint32_t length = m_first[entry + 1] - m_first[entry];
+            lengths[tile] += length;
+            sums[tile] += number * length;
+            ++entry;
+        }
     }
 }
 

@@ -46,8 +46,10 @@ class Chunk {
     [[nodiscard]] const BinCounts& counts() const { return m_counts; }
     /// Bytes in use.
     [[nodiscard]] std::size_t bytes() const;
-    /// Adds the length of each tile's list to `lengths`, which has `columns` tiles in a row.
-    void add_lengths(std::span<std::uint32_t> lengths, std::size_t columns) const;
+    /// Adds the length of each tile's list to `lengths`, which has `columns` tiles in a row, and
+    /// times `number`, this chunk's, to `sums`.
+    void add_lengths(std::uint64_t number, std::span<std::uint32_t> lengths,
+                     std::span<std::uint64_t> sums, std::size_t columns) const;
 
   private:
     SetupCounts set_up(SetupCtx ctx, const KernelTable& kernels);
