@@ -34,6 +34,7 @@ using InputOp = std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx,
                              FetchCtx, DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx,
                              ReflectCtx, QuotientCtx, AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx,
                              PlaneFootprintCtx, QuadFootprintCtx, LevelOfDetailCtx, LevelAddressCtx,
-                             FetchHiloCtx, FetchWordsCtx, BlendLevelsCtx, HiloCtx, BlendedCtx>;
+                             FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx, BlendLevelsCtx, HiloCtx,
+                             BlendedCtx>;
 
 }  // namespace burnish
