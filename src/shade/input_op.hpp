@@ -30,11 +30,11 @@ struct BlendedCtx {
 };
 
 /// Brings a packet's attributes to its registers, before the program runs or between its stages.
-using InputOp = std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx,
-                             FetchCtx, DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx,
-                             ReflectCtx, QuotientCtx, AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx,
-                             PlaneFootprintCtx, QuadFootprintCtx, LevelOfDetailCtx, LevelAddressCtx,
-                             FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx, BlendLevelsCtx, HiloCtx,
-                             BlendedCtx>;
+using InputOp =
+    std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx,
+                 DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
+                 AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
+                 LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
+                 BlendLevelsCtx, HiloCtx, BlendedCtx>;
 
 }  // namespace burnish
