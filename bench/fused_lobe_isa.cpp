@@ -45,7 +45,9 @@ inline Texel sample(const std::uint8_t* texels, std::int32_t pitch, const std::i
     const I16 v0 = filtered(0), v1 = filtered(1), v2 = filtered(2), v3 = filtered(3);
     const I16 rg01 = zip_lo32(v0, v1), rg23 = zip_lo32(v2, v3);
     const I16 ba01 = zip_hi32(v0, v1), ba23 = zip_hi32(v2, v3);
-    return {zip_lo64(rg01, rg23), zip_hi64(rg01, rg23), zip_lo64(ba01, ba23), zip_hi64(ba01, ba23)};
+    const auto code = [](I16 v) { return FilterNineBit::unsigned_code(v); };
+    return {code(zip_lo64(rg01, rg23)), code(zip_hi64(rg01, rg23)), code(zip_lo64(ba01, ba23)),
+            code(zip_hi64(ba01, ba23))};
 }
 
 inline I16 encoded(const float* from) {
@@ -81,11 +83,11 @@ void fused_lobe(Packet& packet, const FusedLobe& ctx) noexcept {
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes) {
         const Addresses at(u + i, v + i, ctx);
-        const I16 wx = load(at.weight_x), wy = load(at.weight_y);
-        const FilterNineBit filter[4] = {{wx, wy, patterns.word_pair[0]},
-                                         {wx, wy, patterns.word_pair[1]},
-                                         {wx, wy, patterns.word_pair[2]},
-                                         {wx, wy, patterns.word_pair[3]}};
+        const FilterWeights weights = FilterNineBit::weights(load(at.weight_x), load(at.weight_y));
+        const FilterNineBit filter[4] = {{weights, patterns.word_pair[0]},
+                                         {weights, patterns.word_pair[1]},
+                                         {weights, patterns.word_pair[2]},
+                                         {weights, patterns.word_pair[3]}};
         I16 c[3];
         for (int k = 0; k < 3; ++k) c[k] = encoded(color[k] + i) * I16(228) - I16(228 * 128);
         const Texel t = sample(texels[0], pitch, at.texel, filter, patterns.interleave);

@@ -186,13 +186,25 @@ struct Source {
     typename Model::Map map;
 };
 
+/// Three components of an operand.
+struct Vector {
+    I16 x, y, z;
+};
+
 // Always inline: its six mappings then stay in registers around the loop.
 template <class Model>
-[[gnu::always_inline]] inline typename Model::Value dot_product(const Source<Model>& a,
-                                                                const Source<Model>& b, int i) {
-    const auto first =
-        Model::add(Model::product(a(0, i), b(0, i)), Model::product(a(1, i), b(1, i)));
-    return Model::add(first, Model::product(a(2, i), b(2, i)));
+[[gnu::always_inline]] inline Vector vector_at(const Source<Model>& source, int i) {
+    return {source(0, i), source(1, i), source(2, i)};
+}
+template <class Model>
+[[gnu::always_inline]] inline typename Model::Value dot_product(const Vector& a, const Vector& b) {
+    const auto first = Model::add(Model::product(a.x, b.x), Model::product(a.y, b.y));
+    return Model::add(first, Model::product(a.z, b.z));
+}
+
+bool are_same(const Operand& a, const Operand& b) {
+    return a.mapping == b.mapping && a.plane[0] == b.plane[0] && a.plane[1] == b.plane[1] &&
+           a.plane[2] == b.plane[2];
 }
 
 /// The outputs of one component.
@@ -250,9 +262,22 @@ void portion(Packet& packet, const PortionCtx& ctx) {
     } else {
         const Source<Model> a(packet, ctx.a, Model::kScaleA), b(packet, ctx.b, Model::kScaleB),
             c(packet, ctx.c, Model::kScaleA), d(packet, ctx.d, Model::kScaleB);
+        if constexpr (Ab == ProductKind::dot && Cd == ProductKind::dot) {
+            if (are_same(ctx.b, ctx.d)) {  // two vectors by one, as two axes of a frame
+                for (int i = 0; i < n; i += kLanes) {
+                    const Vector shared = vector_at(b, i);
+                    ab = dot_product<Model>(vector_at(a, i), shared);
+                    cd = dot_product<Model>(vector_at(c, i), shared);
+                    for (int k = 0; k < components; ++k) Outputs(packet, ctx, k)(output, i, ab, cd);
+                }
+                return;
+            }
+        }
         for (int i = 0; i < n; i += kLanes) {
-            if constexpr (Ab == ProductKind::dot) ab = dot_product<Model>(a, b, i);
-            if constexpr (Cd == ProductKind::dot) cd = dot_product<Model>(c, d, i);
+            if constexpr (Ab == ProductKind::dot)
+                ab = dot_product<Model>(vector_at(a, i), vector_at(b, i));
+            if constexpr (Cd == ProductKind::dot)
+                cd = dot_product<Model>(vector_at(c, i), vector_at(d, i));
             for (int k = 0; k < components; ++k) {
                 if constexpr (Ab == ProductKind::multiply) ab = Model::product(a(k, i), b(k, i));
                 if constexpr (Cd == ProductKind::multiply) cd = Model::product(c(k, i), d(k, i));
@@ -293,8 +318,7 @@ void portion(Packet& packet, const PortionCtx& ctx) {
 bool has_short_product(const Operand& a, const Operand& b) {
     const auto is_even = [](std::uint8_t mapping) { return mapping == 2 || mapping == 3; };
     if (is_even(a.mapping) && is_even(b.mapping)) return true;
-    return a.mapping == b.mapping && a.plane[0] == b.plane[0] && a.plane[1] == b.plane[1] &&
-           a.plane[2] == b.plane[2];
+    return are_same(a, b);
 }
 
 /// None of the choices of NineBitChoice.

@@ -4,38 +4,36 @@ struct AxisAddress {
     I32 weight;  ///< of its neighbour, 0 .. 255
 };
 
-/// `whole` is the coordinate of the far side, `steps` how many 1/256 texels 1 is.
+/// `whole` is the coordinate of the far side, `steps` how many 1/256 texels 1 is. Coordinates that
+/// repeat are within 0 .. 1 or NaN, so that linear filtering never gets beyond the last texel.
 template <AddressMode Mode, bool Linear>
 inline AxisAddress axis_address(F32 coordinate, std::int32_t size, F32 whole, F32 steps) {
-    const I32 last(size - 1), zero(0);
+    const I32 last(size - 1), zero(0), half(Linear ? 128 : 0), bits(Linear ? 255 : 0);
     const F32 one(1.0F), nought(0.0F);
-    F32 f = coordinate;
-    if constexpr (Mode == AddressMode::repeat) f = coordinate - ::xsimd::floor(coordinate);
-    if constexpr (Mode == AddressMode::mirrored_repeat) {
-        f = coordinate - F32(2.0F) * ::xsimd::floor(coordinate * F32(0.5F));
-        f = ::xsimd::select(f > one, F32(2.0F) - f, f);
-    }
-    I32 fixed;
     if constexpr (Mode == AddressMode::clamp_to_border) {
-        fixed = truncate(::xsimd::floor(min(max(f, nought - one), whole + one) * steps));
+        const F32 f = min(max(coordinate, nought - one), whole + one);
+        const I32 fixed = truncate(::xsimd::floor(f * steps)) - half;
+        const I32 before(-1), behind(size), texel = fixed >> 8;
+        I32 weight = fixed & bits;
+        weight = ::xsimd::select(texel < before, zero, weight);
+        weight = ::xsimd::select(texel > last, zero, weight);
+        return {min(max(texel, before), behind), weight};
+    } else if constexpr (Mode == AddressMode::repeat) {
+        const F32 f = max(coordinate - ::xsimd::floor(coordinate), nought);
+        const I32 fixed = truncate(f * steps) - half, texel = fixed >> 8;  // -1 or 0 .. size
+        if constexpr (Linear) return {min_unsigned(texel, last), fixed & bits};
+        return {::xsimd::select(texel > last, zero, texel), zero};
     } else {
-        fixed = truncate(min(max(f, nought), whole) * steps);
+        F32 f = coordinate;
+        if constexpr (Mode == AddressMode::mirrored_repeat) {
+            f = coordinate - F32(2.0F) * ::xsimd::floor(coordinate * F32(0.5F));
+            f = ::xsimd::select(f > one, F32(2.0F) - f, f);
+        }
+        const I32 fixed = truncate(min(max(f, nought), whole) * steps) - half;
+        if constexpr (!Linear) return {min(fixed >> 8, last), zero};
+        const I32 inside = max(fixed, zero);
+        return {inside >> 8, inside & bits};
     }
-    fixed = fixed - I32(Linear ? 128 : 0);
-    AxisAddress a{fixed >> 8, Linear ? (fixed & I32(255)) : zero};
-    if constexpr (Mode == AddressMode::repeat) {
-        a.texel = a.texel + ((a.texel >> 31) & I32(size));
-        a.texel = ::xsimd::select(a.texel > last, a.texel - I32(size), a.texel);
-    } else if constexpr (Mode == AddressMode::clamp_to_border) {
-        const I32 before(-1), behind(size);
-        a.weight = ::xsimd::select(a.texel < before, zero, a.weight);
-        a.weight = ::xsimd::select(a.texel > last, zero, a.weight);
-        a.texel = min(max(a.texel, before), behind);
-    } else {
-        a.weight = ::xsimd::select(a.texel < zero, zero, a.weight);
-        a.texel = min(max(a.texel, zero), last);
-    }
-    return a;
 }
 
 template <AddressMode ModeS, AddressMode ModeT, bool Linear>
@@ -55,18 +53,22 @@ void addresses(Packet& packet, const AddressCtx& ctx) {
     std::int32_t* const texel = packet.texel;
     std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
     const int n = group_count(packet);
-    for (int i = 0; i < n; i += kLanes32) {
-        F32 s = load(u + i), t = load(v + i);
-        if (projective) {
-            const F32 divisor = load(q + i);
-            s = divide(s, divisor);
-            t = divide(t, divisor);
+    for (int i = 0; i < n; i += kLanes) {
+        AxisAddress x[2], y[2];
+        for (int half = 0; half < 2; ++half) {
+            const int at = i + half * kLanes32;
+            F32 s = load(u + at), t = load(v + at);
+            if (projective) {
+                const F32 divisor = load(q + at);
+                s = divide(s, divisor);
+                t = divide(t, divisor);
+            }
+            x[half] = axis_address<ModeS, Linear>(s, width, whole_x, steps_x);
+            y[half] = axis_address<ModeT, Linear>(t, height, whole_y, steps_y);
+            store(texel + at, y[half].texel * pitch + (x[half].texel << texel_shift));
         }
-        const AxisAddress x = axis_address<ModeS, Linear>(s, width, whole_x, steps_x);
-        const AxisAddress y = axis_address<ModeT, Linear>(t, height, whole_y, steps_y);
-        store(texel + i, y.texel * pitch + (x.texel << texel_shift));
-        store_narrowed(weight_x + i, x.weight);
-        store_narrowed(weight_y + i, y.weight);
+        store_narrowed(weight_x + i, x[0].weight, x[1].weight);
+        store_narrowed(weight_y + i, y[0].weight, y[1].weight);
     }
 }
 
@@ -131,41 +133,49 @@ struct FetchPatterns {
     }
 };
 
-/// The bilinear filter of the nine-bit model, for the fragments of one vector. A lerp
-/// ((256 - w) x + w y + 128) >> 8 is x + ((w (y - x) + 128) >> 8), which is one rounding product.
+/// Weights of kLanes fragments, as the filters of each vector of texels pick them.
+struct FilterWeights {
+    I16 x, y;
+};
+
+/// The bilinear filter of the nine-bit model, for the fragments of one vector, from texels x =
+/// 127 - t. A weighted sum s of two, divided by 256 with halves downwards, is 127 minus the lerp
+/// with halves upwards; a rounding product with -128 / 2^15 is just minus that quotient. The weight
+/// 256 does not fit a byte, but (255, 0) do as well: (255 x + 127) >> 8 = x for all x of a byte.
 struct FilterNineBit {
-    FilterNineBit(I16 wx, I16 wy, I16 word_pair)
-        : across(shuffle_bytes(wx << 7, word_pair)), down(shuffle_bytes(wy << 7, word_pair)) {}
-    I16 row(I16 texels) const {
-        const I16 left = texels & I16(255), right_minus_left = mul_add_bytes(texels, I16(0x01ff));
-        return left + mul_round(right_minus_left, across);
+    static FilterWeights weights(I16 wx, I16 wy) {
+        return {min(I16(256) - wx, I16(255)) | (wx << 8), wy << 7};
     }
+    FilterNineBit(const FilterWeights& w, I16 word_pair)
+        : across(shuffle_bytes(w.x, word_pair)), down(shuffle_bytes(w.y, word_pair)) {}
+    I16 row(I16 texels) const { return mul_round(mul_add_bytes(across, texels), I16(-128)); }
+    /// v - 127. A lerp ((256 - w) x + w y + 128) >> 8 is x + ((w (y - x) + 128) >> 8).
     I16 operator()(I16 top_texels, I16 bottom_texels) const {
         const I16 top = row(top_texels), bottom = row(bottom_texels);
         return top + mul_round(bottom - top, down);
     }
-    static I16 unsigned_code(I16 v) { return v; }
-    static I16 signed_code(I16 v) { return (v - I16(128)) << 1; }
+    static I16 unsigned_code(I16 v) { return v + I16(127); }
+    static I16 signed_code(I16 v) { return (v - I16(1)) << 1; }
     I16 across, down;
 };
 
 /// The same for the wide model, exact until the end.
 struct FilterWide {
-    FilterWide(I16 wx, I16 wy, I16 word_pair)
-        : across(shuffle_bytes((I16(255) - wx) | (wx << 8), word_pair)) {
-        const I16 bottom = shuffle_bytes(wy, word_pair);
-        down = zip_lo16(I16(256) - bottom, bottom);  // and zip_hi16: words repeat
+    static FilterWeights weights(I16 wx, I16 wy) { return {(I16(255) - wx) | (wx << 8), wy}; }
+    FilterWide(const FilterWeights& w, I16 word_pair) : across(shuffle_bytes(w.x, word_pair)) {
+        const I16 bottom = shuffle_bytes(w.y, word_pair);
+        down = zip_lo16(bottom - I16(256), I16(0) - bottom);  // and zip_hi16: words repeat
     }
-    /// (256 - wx) * left + wx * right of value - 128, from -32768 to 32512. 256 does not fit a
-    /// byte, so one more left is added by a second product.
+    /// (256 - wx) * left + wx * right of 127 - t, from -32768 to 32512. 256 does not fit a byte, so
+    /// one more left is added by a second product.
     I16 row(I16 texels) const {
-        const I16 biased = texels ^ I16(static_cast<std::int16_t>(0x8080));
-        return mul_add_bytes(across, biased) + mul_add_bytes(I16(1), biased);
+        return mul_add_bytes(across, texels) + mul_add_bytes(I16(1), texels);
     }
     I16 operator()(I16 top_texels, I16 bottom_texels) const {
         const I16 top = row(top_texels), bottom = row(bottom_texels);
-        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), down) + I32(128);
-        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), down) + I32(128);
+        const I32 half(128 - 65536);  // minus the sum of 127 - t is that of t - 128 plus 1 each
+        const I32 lo = mul_add_pairs(zip_lo16(top, bottom), down) + half;
+        const I32 hi = mul_add_pairs(zip_hi16(top, bottom), down) + half;
         return narrow(lo >> 8, hi >> 8);  // v - 32768
     }
     static I16 unsigned_code(I16 biased) {
@@ -176,71 +186,115 @@ struct FilterWide {
     I16 across, down;
 };
 
+/// Whether textures are beyond what caches near by keep, so that prefetching pays; they are taken
+/// for squares.
+bool are_large(const FetchCtx& ctx) {
+    constexpr std::int64_t kFewBytes = 4 << 20;
+    return ctx.count * (std::int64_t{ctx.pitch} * ctx.pitch / 4) > kFewBytes;
+}
+
+/// Brings what a packet is about to read closer, many lines at once: one fragment in eight, both
+/// rows, touches nearly all lines of texels about as large as pixels. Always inline: GCC 12 drops
+/// calls of a function that does nothing else.
+[[gnu::always_inline]] inline void prefetch_texels(const Packet& packet, const FetchCtx& ctx) {
+    constexpr int kStep = 8;
+    const std::ptrdiff_t pitch = ctx.pitch;
+    const std::int32_t* const texel = packet.texel;
+    const int count = packet.count;
+    for (int t = 0; t < ctx.count; ++t) {
+        const std::uint8_t *const upper = ctx.texels[t], *const lower = upper + pitch;
+        for (int i = 0; i < count; i += kStep) {
+            __builtin_prefetch(upper + texel[i]);
+            __builtin_prefetch(lower + texel[i]);
+        }
+    }
+}
+
+/// Four vectors of texels as their channels.
+struct Channels {
+    explicit Channels(const I16 (&v)[4]) {
+        const I16 rg01 = zip_lo32(v[0], v[1]), rg23 = zip_lo32(v[2], v[3]);
+        const I16 ba01 = zip_hi32(v[0], v[1]), ba23 = zip_hi32(v[2], v[3]);
+        r = zip_lo64(rg01, rg23);
+        g = zip_hi64(rg01, rg23);
+        b = zip_lo64(ba01, ba23);
+        a = zip_hi64(ba01, ba23);
+    }
+    I16 r, g, b, a;
+};
+
+template <class Filter>
+inline void put_codes(std::int16_t* out, const Channels& v, unsigned is_signed) {
+    const auto put = [&](auto code) {
+        store(out, code(v.r));
+        store(out + kPacketSize, code(v.g));
+        store(out + 2 * kPacketSize, code(v.b));
+        store(out + 3 * kPacketSize, code(v.a));
+    };
+    if (is_signed == 0) return put([](I16 x) { return Filter::unsigned_code(x); });
+    if (is_signed == FetchCtx::kAllSigned) return put([](I16 x) { return Filter::signed_code(x); });
+    const auto put_channel = [&](unsigned c, I16 x) {
+        store(out + c * kPacketSize,
+              (is_signed >> c & 1U) != 0 ? Filter::signed_code(x) : Filter::unsigned_code(x));
+    };
+    put_channel(0, v.r);
+    put_channel(1, v.g);
+    put_channel(2, v.b);
+    put_channel(3, v.a);
+}
+
 /// 64-bit loads of texel pairs, weighted where they are, transposed to planes. Vector k of four
 /// holds fragments 8 p + 2 k and 8 p + 2 k + 1 in lane p; what comes out is in order. Weights and
-/// offsets serve all textures, whose loads are in flight together.
-template <class Filter>
+/// addresses serve all textures, whose loads are in flight together.
+template <class Filter, int Textures>
 void fetch(Packet& packet, const FetchCtx& ctx) {
     const FetchPatterns patterns;
-    const std::ptrdiff_t pitch = ctx.pitch;
-    const int textures = ctx.count;
-    const std::uint8_t* texels[FetchCtx::kMaxTextures];
-    std::int16_t* planes[FetchCtx::kMaxTextures];
-    unsigned signed_channels[FetchCtx::kMaxTextures];
-    for (int t = 0; t < textures; ++t) {
-        texels[t] = ctx.texels[t];
+    const auto base = reinterpret_cast<std::uintptr_t>(ctx.texels[0]);
+    std::ptrdiff_t row[2 * Textures];
+    std::int16_t* planes[Textures];
+    unsigned is_signed[Textures];
+    for (int t = 0; t < Textures; ++t) {
+        row[2 * t] =
+            static_cast<std::ptrdiff_t>(reinterpret_cast<std::uintptr_t>(ctx.texels[t]) - base);
+        row[2 * t + 1] = row[2 * t] + ctx.pitch;
         planes[t] = packet.planes + ctx.plane[t] * kPacketSize;
-        signed_channels[t] = ctx.is_signed[t];
+        is_signed[t] = ctx.is_signed[t];
     }
     const std::int32_t* const texel = packet.texel;
     const std::int16_t *weight_x = packet.weight_x, *weight_y = packet.weight_y;
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes) {
-        const I16 wx = load(weight_x + i), wy = load(weight_y + i);
-        const Filter filter[4] = {
-            {wx, wy, patterns.word_pair[0]},
-            {wx, wy, patterns.word_pair[1]},
-            {wx, wy, patterns.word_pair[2]},
-            {wx, wy, patterns.word_pair[3]},
-        };
-        for (int t = 0; t < textures; ++t) {
-            const std::uint8_t *const upper = texels[t], *const lower = texels[t] + pitch;
-            const auto filtered = [&](int k) __attribute__((always_inline)) {
-                const std::int32_t* at = texel + i + 2 * k;
-                const I16 top = shuffle_bytes(load_pairs(upper, at), patterns.interleave);
-                const I16 bottom = shuffle_bytes(load_pairs(lower, at), patterns.interleave);
-                return filter[k](top, bottom);
-            };
-            // Four by name: as a loop they are left rolled up, and pass through memory.
-            const I16 v0 = filtered(0), v1 = filtered(1), v2 = filtered(2), v3 = filtered(3);
-            const I16 rg01 = zip_lo32(v0, v1), rg23 = zip_lo32(v2, v3);
-            const I16 ba01 = zip_hi32(v0, v1), ba23 = zip_hi32(v2, v3);
-            const I16 r = zip_lo64(rg01, rg23), g = zip_hi64(rg01, rg23);
-            const I16 b = zip_lo64(ba01, ba23), a = zip_hi64(ba01, ba23);
-            const auto put = [&](auto code) {
-                std::int16_t* const out = planes[t] + i;
-                store(out, code(r));
-                store(out + kPacketSize, code(g));
-                store(out + 2 * kPacketSize, code(b));
-                store(out + 3 * kPacketSize, code(a));
-            };
-            const unsigned channels = signed_channels[t];
-            if (channels == 0) {
-                put([](I16 v) { return Filter::unsigned_code(v); });
-            } else if (channels == FetchCtx::kAllSigned) {
-                put([](I16 v) { return Filter::signed_code(v); });
-            } else {
-                const auto put_channel = [&](int c, I16 v) {
-                    const bool is_signed = (channels >> c & 1U) != 0;
-                    store(planes[t] + i + c * kPacketSize,
-                          is_signed ? Filter::signed_code(v) : Filter::unsigned_code(v));
-                };
-                put_channel(0, r);
-                put_channel(1, g);
-                put_channel(2, b);
-                put_channel(3, a);
+        const FilterWeights weights = Filter::weights(load(weight_x + i), load(weight_y + i));
+        I16 filtered[Textures][4];
+#pragma GCC unroll 4
+        for (int k = 0; k < 4; ++k) {
+            const Filter filter(weights, patterns.word_pair[k]);
+            I16 pairs[2 * Textures];
+            load_pairs(base, row, texel + i + 2 * k, pairs);
+#pragma GCC unroll 4
+            for (int t = 0; t < Textures; ++t) {
+                filtered[t][k] = filter(shuffle_bytes(pairs[2 * t], patterns.interleave),
+                                        shuffle_bytes(pairs[2 * t + 1], patterns.interleave));
             }
         }
+#pragma GCC unroll 4
+        for (int t = 0; t < Textures; ++t)
+            put_codes<Filter>(planes[t] + i, Channels(filtered[t]), is_signed[t]);
+    }
+}
+
+template <class Filter>
+void fetch(Packet& packet, const FetchCtx& ctx) {
+    if (are_large(ctx)) prefetch_texels(packet, ctx);
+    switch (ctx.count) {
+        case 1:
+            return fetch<Filter, 1>(packet, ctx);
+        case 2:
+            return fetch<Filter, 2>(packet, ctx);
+        case 3:
+            return fetch<Filter, 3>(packet, ctx);
+        default:
+            return fetch<Filter, 4>(packet, ctx);
     }
 }
 void fetch_nine_bit(Packet& packet, const FetchCtx& ctx) noexcept {

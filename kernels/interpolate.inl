@@ -85,9 +85,10 @@ void encode(Packet& packet, const EncodeCtx& ctx, float one_value) {
     const float* from = packet.attributes + ctx.attribute * kAttributeStride;
     std::int16_t* to = packet.planes + ctx.plane * kPacketSize;
     const int n = group_count(packet);
-    for (int i = 0; i < n; i += kLanes32) {
-        store_narrowed(to + i, truncate(min(max(load(from + i) * one + half, zero), one)));
-    }
+    const auto code = [&](int i) {
+        return truncate(min(max(load(from + i) * one + half, zero), one));
+    };
+    for (int i = 0; i < n; i += kLanes) store_narrowed(to + i, code(i), code(i + kLanes32));
 }
 void encode_nine_bit(Packet& packet, const EncodeCtx& ctx) noexcept {
     encode(packet, ctx, 255.0F);

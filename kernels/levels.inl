@@ -132,10 +132,15 @@ void level_of_detail(Packet& packet, const LevelOfDetailCtx& ctx) noexcept {
     const float* const from = packet.attributes + ctx.footprint * kAttributeStride;
     std::int16_t* const to = packet.planes + ctx.plane * kPacketSize;
     const F32 low(0x1p-64F), high(0x1p64F);
-    const I32 bias(ctx.bias), last(ctx.max), zero(0), one(1);
+    const I32 bias(ctx.bias), last(ctx.max), zero(0), one(1), code_of_one(0x3f800000);
+    const bool below_one_is_0 = ctx.bias <= 0;
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes32) {
         const I32 bits = ::xsimd::bitwise_cast<I32>(min(max(load(from + i), low), high));
+        if (below_one_is_0 && !::xsimd::any(bits >= code_of_one)) {
+            store_narrowed(to + i, zero);
+            continue;
+        }
         const I32 entry = look_up(kLog2Intervals.entry, (bits >> 15) & I32(255));
         const I32 beyond = ::xsimd::select((bits & I32(0x7fff)) < (entry & I32(0xffff)), zero, one);
         const I32 octaves = ((bits >> 23) - I32(127)) << 7;
@@ -149,40 +154,37 @@ struct LevelAxis {
     bool rectangle;
 
     AxisAddress operator()(F32 coordinate, I32 size, I32 half, I32 weight_bits) const {
-        const I32 zero(0);
+        const I32 zero(0), last = size - I32(1);
         const F32 one(1.0F), nought(0.0F);
         const F32 whole = rectangle ? to_float(size) : one;
         const F32 steps = rectangle ? F32(256.0F) : to_float(size << 8);
-        F32 f = coordinate, lowest = nought, highest = whole;
+        F32 f = coordinate;
         switch (mode) {
-            case AddressMode::repeat:
-                f = coordinate - ::xsimd::floor(coordinate);
-                break;
+            case AddressMode::repeat: {
+                f = max(coordinate - ::xsimd::floor(coordinate), nought);  // at most 1
+                const I32 fixed = truncate(f * steps) - half, texel = fixed >> 8;
+                const I32 below_size = ::xsimd::select(texel < size, texel, zero);
+                return {min_unsigned(below_size, last), fixed & weight_bits};
+            }
+            case AddressMode::clamp_to_border: {
+                f = min(max(f, nought - one), whole + one);
+                const I32 fixed = truncate(::xsimd::floor(f * steps)) - half, texel = fixed >> 8;
+                const I32 before(-1);
+                I32 weight = fixed & weight_bits;
+                weight = ::xsimd::select(texel < before, zero, weight);
+                weight = ::xsimd::select(texel < size, weight, zero);
+                return {min(max(texel, before), size), weight};
+            }
             case AddressMode::mirrored_repeat:
                 f = coordinate - F32(2.0F) * ::xsimd::floor(coordinate * F32(0.5F));
                 f = ::xsimd::select(f > one, F32(2.0F) - f, f);
                 break;
-            case AddressMode::clamp_to_border:
-                lowest = nought - one;
-                highest = whole + one;
-                break;
             case AddressMode::clamp_to_edge:
                 break;
         }
-        f = min(max(f, lowest), highest);
-        const I32 fixed = truncate(::xsimd::floor(f * steps)) - half;
-        AxisAddress a{fixed >> 8, fixed & weight_bits};
-        if (mode == AddressMode::repeat) {
-            a.texel = a.texel + ((a.texel >> 31) & size);
-            a.texel = ::xsimd::select(a.texel < size, a.texel, a.texel - size);
-            return a;
-        }
-        const bool border = mode == AddressMode::clamp_to_border;
-        const I32 first(border ? -1 : 0);
-        a.weight = ::xsimd::select(a.texel < first, zero, a.weight);
-        if (border) a.weight = ::xsimd::select(a.texel < size, a.weight, zero);
-        a.texel = min(max(a.texel, first), border ? size : size - I32(1));
-        return a;
+        const I32 fixed = truncate(min(max(f, nought), whole) * steps) - half;
+        const I32 inside = max(fixed, zero);
+        return {min(inside >> 8, last), inside & weight_bits};
     }
 };
 
@@ -239,6 +241,7 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
     const I32 zero(0), last(ctx.level_count - 1);
     const I32 min_half(ctx.min_linear != 0 ? 128 : 0), mag_half(ctx.mag_linear != 0 ? 128 : 0);
     const I32 min_bits(ctx.min_linear != 0 ? 255 : 0), mag_bits(ctx.mag_linear != 0 ? 255 : 0);
+    const bool layers = ctx.face >= 0 || ctx.r >= 0;
     const int n = group_count(packet);
     for (int i = 0; i < n; i += kLanes32) {
         const I32 lambda = ctx.lambda < 0 ? zero : load_widened(lambdas + i);
@@ -260,8 +263,9 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
             layer = ctx.behind != 0 ? slice_behind(z.texel, depth, ctx.mode_r) : z.texel;
             if (ctx.slice_weight >= 0) store_narrowed(slice_weight + i, z.weight);
         }
-        store(packet.texel + i, offsets(level) + y.texel * I32(ctx.pitch) +
-                                    x.texel * I32(ctx.texel_bytes) + layer * I32(ctx.layer_bytes));
+        I32 at = offsets(level) + y.texel * I32(ctx.pitch) + x.texel * I32(ctx.texel_bytes);
+        if (layers) at = at + layer * I32(ctx.layer_bytes);
+        store(packet.texel + i, at);
         store_narrowed(packet.weight_x + i, x.weight);
         store_narrowed(packet.weight_y + i, y.weight);
     }

@@ -81,7 +81,7 @@ struct AddressCtx {
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
 /// 4 bytes apart, the rows one pitch. Texture k gives four planes r, g, b, a from plane[k] on.
-/// A texel t is four bytes r, g, b, a; those of a signed channel are value + 128.
+/// A texel is four signed bytes 127 - t of r, g, b, a; of a signed channel t = value + 128.
 /// nine_bit: h = ((256 - wx) * t_left + wx * t_right + 128) >> 8 for both rows,
 ///   v = ((256 - wy) * h_top + wy * h_bottom + 128) >> 8; code = v, signed 2 * (v - 128).
 /// wide: h = (256 - wx) * t_left + wx * t_right,

@@ -853,7 +853,8 @@ void fetch(Packet& packet, const FetchCtx& ctx) noexcept {
         for (int k = 0; k < 4 * ctx.count; ++k) {
             const int c = k % 4;
             const auto texel = [&](std::int32_t offset) {
-                return Int{ctx.texels[k / 4][offset + c]};
+                const auto byte = static_cast<std::int8_t>(ctx.texels[k / 4][offset + c]);
+                return Int{127} - Int{byte};
             };
             const std::int32_t upper = packet.texel[i], lower = upper + ctx.pitch;
             const Int value =

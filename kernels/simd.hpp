@@ -237,6 +237,13 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtepi32_epi16(v));
 }
+/// Of two vectors: one permutation takes half as long as two conversions.
+inline void store_narrowed(std::int16_t* p, I32 first, I32 second) {
+    const __m512i even_words =
+        _mm512_set_epi16(62, 60, 58, 56, 54, 52, 50, 48, 46, 44, 42, 40, 38, 36, 34, 32, 30, 28, 26,
+                         24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+    _mm512_storeu_si512(p, _mm512_permutex2var_epi16(first, even_words, second));
+}
 /// 64-bit loads of texel pairs: lane k gets the pairs at offset[8 k] (low half) and offset[8 k +
 /// 1].
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
@@ -248,6 +255,37 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(1), 1);
     const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(2)), pair(3), 1);
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+/// load_pairs() from many rows at once, row k beginning row[k] bytes behind `base`: four fragments
+/// at a time, whose addresses stay in registers for all rows.
+template <int Rows>
+[[gnu::always_inline]] inline void load_pairs(std::uintptr_t base,
+                                              const std::ptrdiff_t (&row)[Rows],
+                                              const std::int32_t* offset, I16 (&pairs)[Rows]) {
+    const auto half = [&](const std::int32_t* at, __m256i(&out)[Rows])
+        __attribute__((always_inline)) {
+        const std::uintptr_t address[4] = {
+            base + static_cast<std::uintptr_t>(at[0]), base + static_cast<std::uintptr_t>(at[1]),
+            base + static_cast<std::uintptr_t>(at[8]), base + static_cast<std::uintptr_t>(at[9])};
+#pragma GCC unroll 8
+        for (int k = 0; k < Rows; ++k) {
+            const auto behind = static_cast<std::uintptr_t>(row[k]);
+            const auto pair = [&](int f) __attribute__((always_inline)) {
+                const __m128i low =
+                    _mm_loadl_epi64(reinterpret_cast<const __m128i*>(address[f] + behind));
+                return _mm_castpd_si128(
+                    _mm_loadh_pd(_mm_castsi128_pd(low),
+                                 reinterpret_cast<const double*>(address[f + 1] + behind)));
+            };
+            out[k] = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(2), 1);
+        }
+    };
+    __m256i low[Rows], high[Rows];
+    half(offset, low);
+    half(offset + 16, high);
+#pragma GCC unroll 8
+    for (int k = 0; k < Rows; ++k)
+        pairs[k] = _mm512_inserti64x4(_mm512_castsi256_si512(low[k]), high[k], 1);
 }
 /// Entries of a short table. xsimd 8.1 has no gather of its own for AVX-512.
 inline I32 look_up(const std::int32_t* table, I32 index) {
@@ -967,10 +1005,33 @@ inline I16 add_saturating_unsigned(I16 a, I16 b) {
 inline I16 subtract_saturating_unsigned(I16 a, I16 b) {
     return as_signed(::xsimd::ssub(as_unsigned(a), as_unsigned(b)));
 }
+/// Of unsigned numbers.
+inline I32 min_unsigned(I32 a, I32 b) {
+    using U32 = ::xsimd::batch<std::uint32_t, Arch>;
+    return ::xsimd::bitwise_cast<I32>(
+        ::xsimd::min(::xsimd::bitwise_cast<U32>(a), ::xsimd::bitwise_cast<U32>(b)));
+}
 /// Zeros come in from the left.
 inline I16 shift_right_logical(I16 v, int n) {
     return as_signed(as_unsigned(v) >> n);
 }
+
+#if !defined(__AVX512BW__)
+inline void store_narrowed(std::int16_t* p, I32 first, I32 second) {
+    store_narrowed(p, first);
+    store_narrowed(p + kLanes32, second);
+}
+template <int Rows>
+[[gnu::always_inline]] inline void load_pairs(std::uintptr_t base,
+                                              const std::ptrdiff_t (&row)[Rows],
+                                              const std::int32_t* offset, I16 (&pairs)[Rows]) {
+#pragma GCC unroll 8
+    for (int k = 0; k < Rows; ++k) {
+        const std::uintptr_t address = base + static_cast<std::uintptr_t>(row[k]);
+        pairs[k] = load_pairs(reinterpret_cast<const std::uint8_t*>(address), offset);
+    }
+}
+#endif
 
 }  // namespace
 }  // namespace burnish::BURNISH_ISA

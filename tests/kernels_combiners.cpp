@@ -280,6 +280,7 @@ PortionCtx random_portion(Random& random) {
             plane = static_cast<std::int16_t>(random.chance(4) ? o->plane[0] : random.below(13));
     }
     if (random.chance(4)) ctx.b = ctx.a;
+    if (random.chance(4)) ctx.d = ctx.b;  // two vectors by one
     return ctx;
 }
 

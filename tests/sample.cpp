@@ -24,7 +24,7 @@ void sample(const Texture& texture, NumberModel numbers, const KernelTable& kern
     std::vector<InputOp> ops;
     plan_sample(texture, {0, 1, 2, -1, false}, {kRegisters, kValues}, plan, ops);
     Packet packet = memory.view();
-    for (const InputOp& op : ops) feed_input(op, numbers, kernels, {}, packet);
+    feed_inputs(ops, numbers, kernels, {}, packet);
 }
 
 /// A row of words.
@@ -92,6 +92,41 @@ TEST_P(KernelTest, DsdtTexelsArriveAsTheyAre) {
     // 200 is -56. Codes of signed bytes are 2 n and 128 n; 60 / 255 * 2^14 is 3855.06, 130: 8352.6.
     EXPECT_EQ(codes(NumberModel::nine_bit), (Bytes{-112, 200, 60, 130}));
     EXPECT_EQ(codes(NumberModel::wide), (Bytes{-56 * 128, 12800, 3855, 8353}));
+}
+
+// Of a packet whose fragments are all at whole levels the second one is not even fetched. Level k
+// is 10 (k + 1); steps of 3 texels are level log2(3), 406 / 256.
+TEST_P(KernelTest, LevelsAreFetchedWhereAFragmentBlendsThem) {
+    std::vector<Image8> images;
+    for (int side = 16, grey = 10; side >= 1; side /= 2, grey += 10)
+        images.push_back(plain_image(side, side, {grey, grey, grey, grey}));
+    Sampler sampler;
+    sampler.filter = Filter::linear_mipmap_linear;
+    const TexturePtr texture = make_texture(images, {.sampler = sampler});
+    PacketMemory memory;
+    memory.count = kPacketSize;
+    constexpr std::int16_t kUntouched = 12345;
+    const auto planes_written = [&](float step, float last_step) {
+        for (int k = 0; k < kSamplePlanes; ++k)
+            std::fill_n(memory.plane(kScratchPlanes + k), kPacketSize, kUntouched);
+        for (int i = 0; i < kPacketSize; ++i) {
+            const float texels = i < kPacketSize - 4 ? step : last_step;
+            memory.attribute(0)[i] = static_cast<float>(i % 2) * texels / 16.0F;
+            memory.attribute(1)[i] = static_cast<float>(i / 2 % 2) * texels / 16.0F;
+        }
+        sample(*texture, NumberModel::nine_bit, table(), memory);
+        int written = 0;
+        for (int k = 0; k < kSamplePlanes; ++k)
+            written += memory.plane(kScratchPlanes + k)[0] != kUntouched ? 1 : 0;
+        return written;
+    };
+    const std::int16_t* const codes = memory.plane(kRegisters);
+    const int blended = planes_written(2.0F, 3.0F);
+    EXPECT_EQ(codes[0], 20);
+    EXPECT_EQ(codes[kPacketSize - 1], 26);  // (106 * 20 + 150 * 30 + 128) >> 8
+    EXPECT_EQ(planes_written(2.0F, 4.0F), blended - 4);
+    EXPECT_EQ(codes[0], 20);
+    EXPECT_EQ(codes[kPacketSize - 1], 30);
 }
 
 // Level k of a 16 x 16 texture is 10 (k + 1). Two quads: the first 4 texels wide and 2 high, the

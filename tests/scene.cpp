@@ -289,8 +289,8 @@ vertices = []
     EXPECT_EQ(texture.sampler().filter, Filter::nearest);
     EXPECT_EQ(texture.sampler().wrap_s, Wrap::clamp_to_edge);
     EXPECT_EQ(texture.sampler().wrap_t, Wrap::repeat);
-    EXPECT_EQ(texture.texels()[0], 1);
-    EXPECT_EQ(texture.texels()[4], 255);
+    EXPECT_EQ(texture.texel(0, 0, 0, 0, 0), 1);
+    EXPECT_EQ(texture.texel(0, 0, 1, 0, 0), 255);
 }
 
 TEST_F(SceneFiles, TextureErrors) {

@@ -48,9 +48,10 @@ std::uint8_t code(float x) {
 }
 
 glm::vec3 normal_at(const Texture& map, int x, int y) {
-    const std::uint8_t* texel = map.texels() + static_cast<std::ptrdiff_t>(y) * map.pitch() + 4 * x;
-    const glm::vec3 n(static_cast<float>(texel[0] - 128), static_cast<float>(texel[1] - 128),
-                      static_cast<float>(texel[2] - 128));
+    const auto component = [&](int c) {
+        return static_cast<float>(map.texel(0, 0, x, y, c) - (map.is_signed(c) ? 0 : 128));
+    };
+    const glm::vec3 n(component(0), component(1), component(2));
     const float length = std::sqrt((n.x * n.x + n.y * n.y) + n.z * n.z);
     return length > 0.0F ? n / length : glm::vec3(0.0F, 0.0F, 1.0F);
 }

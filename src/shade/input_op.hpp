@@ -22,11 +22,19 @@ struct FillCtx {
     float value;
 };
 
+/// The next `count` operations blend with a further level by the low 8 bits of register plane
+/// `weight`: a packet where all of them are 0 does without.
+struct BlendedCtx {
+    int weight;
+    int count;
+};
+
 /// Brings a packet's attributes to its registers, before the program runs or between its stages.
-using InputOp = std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx,
-                             FetchCtx, DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx,
-                             ReflectCtx, QuotientCtx, AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx,
-                             PlaneFootprintCtx, QuadFootprintCtx, LevelOfDetailCtx, LevelAddressCtx,
-                             FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx, BlendLevelsCtx, HiloCtx>;
+using InputOp =
+    std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx,
+                 DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
+                 AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
+                 LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
+                 BlendLevelsCtx, HiloCtx, BlendedCtx>;
 
 }  // namespace burnish

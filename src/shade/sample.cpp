@@ -185,10 +185,12 @@ class LevelPlanner {
         const std::size_t fetch = m_ops.size() - 1;
         std::optional<std::size_t> ceiling;
         if (blends_levels(m_texture)) {
+            const std::size_t blended = begin_blended(m_address.lambda);
             m_address.choice = LevelChoice::ceiling;
             plan_level(scratch(kSecond));
             ceiling = m_ops.size() - 1;
             plan_blend(out, scratch(kSecond), m_address.lambda);
+            end_blended(blended);
         }
         if (hilo) {
             m_ops.emplace_back(HiloCtx{out, target.values,
@@ -226,7 +228,18 @@ class LevelPlanner {
         add_texture(fetch, m_texture, out);
         if (!shared.ceiling) return;
         add_texture(std::get<FetchCtx>(m_ops[*shared.ceiling]), m_texture, second);
+        const std::size_t blended = begin_blended(shared.address.lambda);
         plan_blend(out, second, shared.address.lambda);
+        end_blended(blended);
+    }
+
+    /// What is planned from here to end_blended() is for packets that blend by plane `weight`.
+    std::size_t begin_blended(int weight) {
+        m_ops.emplace_back(BlendedCtx{weight, 0});
+        return m_ops.size() - 1;
+    }
+    void end_blended(std::size_t begin) {
+        std::get<BlendedCtx>(m_ops[begin]).count = static_cast<int>(m_ops.size() - begin - 1);
     }
 
     /// 1/256.

@@ -1,8 +1,41 @@
 #include <algorithm>
+#include <optional>
 
 #include "shade/shading.hpp"
 
 namespace burnish {
+
+namespace {
+
+/// All codes of a register plane in one.
+int codes_of(const Packet& packet, int plane) {
+    const std::int16_t* const codes = packet.planes + plane * kPacketSize;
+    const int count = packet.count;
+    std::uint16_t any = 0;
+    for (int i = 0; i < count; ++i)
+        any = static_cast<std::uint16_t>(any | static_cast<std::uint16_t>(codes[i]));
+    return any;
+}
+
+/// The same addresses from the plain stage, where all of them are in one flat level.
+std::optional<AddressCtx> in_base_level(const LevelAddressCtx& c, const Packet& packet) {
+    const bool flat = c.face < 0 && c.r < 0 && (c.texel_bytes == 4 || c.texel_bytes == 8);
+    if (!flat || c.choice == LevelChoice::ceiling) return {};
+    if (c.lambda >= 0 && codes_of(packet, c.lambda) != 0) return {};
+    return AddressCtx{c.u,
+                      c.v,
+                      c.q,
+                      c.levels[0].width,
+                      c.levels[0].height,
+                      c.pitch,
+                      c.mode_s,
+                      c.mode_t,
+                      c.mag_linear,
+                      c.rectangle,
+                      static_cast<std::uint8_t>(c.texel_bytes == 8 ? 3 : 2)};
+}
+
+}  // namespace
 
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
                 const AttributesCtx& runs, Packet& packet) {
@@ -49,14 +82,33 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         }
         void operator()(const QuadFootprintCtx& c) const { k.quad_footprint(p, c); }
         void operator()(const LevelOfDetailCtx& c) const { k.level_of_detail(p, c); }
-        void operator()(const LevelAddressCtx& c) const { k.level_address(p, c); }
+        void operator()(const LevelAddressCtx& c) const {
+            if (const auto plain = in_base_level(c, p)) return k.address(p, *plain);
+            k.level_address(p, c);
+        }
         void operator()(const FetchHiloCtx& c) const { k.fetch_hilo(p, c); }
         void operator()(const FetchWordsCtx& c) const { k.fetch_words(p, c); }
         void operator()(const FetchQuartetCtx& c) const { k.fetch_quartet(p, c); }
         void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
         void operator()(const HiloCtx& c) const { k.hilo(p, c); }
+        void operator()(const BlendedCtx& /*c*/) const {}  // feed_inputs() may leave some out
     };
     std::visit(FeedInput{kernels, runs, packet, numbers == NumberModel::nine_bit}, op);
+}
+
+void feed_inputs(std::span<const InputOp> ops, NumberModel numbers, const KernelTable& kernels,
+                 const AttributesCtx& runs, Packet& packet) {
+    int known = -1, weights = 0;  // of register plane `known`
+    for (std::size_t i = 0; i < ops.size(); ++i) {
+        const auto* blended = std::get_if<BlendedCtx>(&ops[i]);
+        if (blended == nullptr) {
+            if (std::holds_alternative<LevelOfDetailCtx>(ops[i])) known = -1;
+            feed_input(ops[i], numbers, kernels, runs, packet);
+            continue;
+        }
+        if (blended->weight != known) weights = codes_of(packet, known = blended->weight);
+        if ((weights & 255) == 0) i += static_cast<std::size_t>(blended->count);
+    }
 }
 
 void run_program(const LightShading& shading, const KernelTable& kernels, const AttributesCtx& runs,
@@ -66,7 +118,7 @@ void run_program(const LightShading& shading, const KernelTable& kernels, const 
     for (const StageSampling& fetch : shading.stage_fetches) {
         run_portions(program, kernels, packet, done, fetch.before);
         done = fetch.before;
-        for (const InputOp& op : fetch.ops) feed_input(op, program.numbers, kernels, runs, packet);
+        feed_inputs(fetch.ops, program.numbers, kernels, runs, packet);
     }
     run_portions(program, kernels, packet, done, program.portions.size());
     run_final(program, kernels, packet);
@@ -77,9 +129,7 @@ namespace {
 void run_pass(const EarlierPass& pass, const KernelTable& kernels, const AttributesCtx& runs,
               Packet& packet) {
     load_constants(pass.program, packet);
-    for (const InputOp& op : pass.inputs) {
-        feed_input(op, pass.program.numbers, kernels, runs, packet);
-    }
+    feed_inputs(pass.inputs, pass.program.numbers, kernels, runs, packet);
     run_portions(pass.program, kernels, packet, 0, pass.program.portions.size());
     run_final(pass.program, kernels, packet);
     for (int c = 0; c < 4; ++c) {
@@ -94,9 +144,7 @@ void run_light(const LightShading& light, bool constants_in_place, const KernelT
                const AttributesCtx& runs, Packet& packet) {
     for (const EarlierPass& pass : light.earlier_passes) run_pass(pass, kernels, runs, packet);
     if (!constants_in_place || !light.earlier_passes.empty()) load_constants(light.program, packet);
-    for (const InputOp& op : light.inputs) {
-        feed_input(op, light.program.numbers, kernels, runs, packet);
-    }
+    feed_inputs(light.inputs, light.program.numbers, kernels, runs, packet);
     run_program(light, kernels, runs, packet);
 }
 

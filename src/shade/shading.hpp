@@ -97,6 +97,10 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
                 const AttributesCtx& runs, Packet& packet);
 
+/// One after the other, but for those that a packet without blended levels does without.
+void feed_inputs(std::span<const InputOp> ops, NumberModel numbers, const KernelTable& kernels,
+                 const AttributesCtx& runs, Packet& packet);
+
 /// General stages with the fetches between them, and the final combiner.
 void run_program(const LightShading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                  Packet& packet);

@@ -13,6 +13,8 @@ namespace burnish {
 namespace {
 
 constexpr std::int32_t kLine = 64;  // bytes of a cache line
+/// Between the bytes of images, signed ones plus 128, and the stored ones.
+constexpr std::uint8_t kByteMask = 0x7f;
 constexpr std::int64_t kMaxBytes = (std::int64_t{1} << 31) - 1;
 
 /// Texels stored around the 0 .. size - 1 of an axis.
@@ -263,6 +265,8 @@ void Texture::build(std::span<const Image> images, const TextureDescription& des
             }
         }
     }
+    if (has_words(m_format)) return;
+    for (std::uint8_t& byte : *m_storage) byte ^= kByteMask;
 }
 
 Texture::Texture(const Image8& image, const Sampler& sampler, TexelFormat format)
@@ -342,7 +346,10 @@ int Texture::texel(std::size_t level, int layer, int x, int y, int c) const noex
     const std::uint8_t* at = m_texels + m_levels[level].offset +
                              static_cast<std::ptrdiff_t>(layer) * m_layer_bytes +
                              static_cast<std::ptrdiff_t>(y) * m_pitch + x * texel_bytes();
-    if (!has_words(m_format)) return is_signed(c) ? at[c] - 128 : at[c];
+    if (!has_words(m_format)) {
+        const int t = at[c] ^ kByteMask;
+        return is_signed(c) ? t - 128 : t;
+    }
     std::int16_t word;
     std::memcpy(&word, at + 2 * c, sizeof word);
     return is_signed(c) ? word : word + 32768;

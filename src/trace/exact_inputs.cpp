@@ -90,6 +90,7 @@ void ExactInputs::feed(const InputOp& op) {
                 plane(c.out + k) = mix(plane(c.a + k), plane(c.b + k), weight);
             }
         }
+        void operator()(const BlendedCtx& /*c*/) const {}  // a fragment alone goes through all
         void operator()(const HiloCtx& c) const {
             for (int k = 0; k < 2; ++k) {
                 to.m_attributes[static_cast<std::size_t>(c.out + k)] = plane(c.plane + k);
