@@ -140,6 +140,9 @@ inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& ed
 }
 
 /// The usual rule: nearer fragments win and leave their depth.
+inline bool nearer_wins(const TileTriangle& t) {
+    return t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
+}
 struct NearerWins {
     static MaskF pass(const TileTriangle&, F32 z, F32 old) { return z < old; }
     static bool writes(const TileTriangle&) { return true; }
@@ -327,9 +330,8 @@ std::uint64_t rasterize_any(const TileTriangle& t, const RasterizeCtx& ctx) {
 
 template <class Trace>
 std::uint64_t rasterize_by_rule(const TileTriangle& t, const RasterizeCtx& ctx) {
-    const bool usual =
-        t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
-    return usual ? rasterize_any<NearerWins, Trace>(t, ctx) : rasterize_any<AnyRule, Trace>(t, ctx);
+    return nearer_wins(t) ? rasterize_any<NearerWins, Trace>(t, ctx)
+                          : rasterize_any<AnyRule, Trace>(t, ctx);
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
@@ -356,7 +358,8 @@ inline std::uint64_t box_pixels(const TileTriangle& t, int x, int y) {
     return (columns & 0xffU) * 0x0101010101010101U & rows;
 }
 
-void cover(const CoverCtx& ctx) noexcept {
+template <class Rule>
+void cover_by(const CoverCtx& ctx) {
     const TileTriangle& t = *ctx.triangle;
     TriangleEdges edges;
     set_edges(t, edges);
@@ -366,7 +369,7 @@ void cover(const CoverCtx& ctx) noexcept {
         const int block = __builtin_ctzll(rest);
         const int x = block % kBlockSize * kBlockSize, y = block / kBlockSize * kBlockSize;
         LeaveBit trace;
-        draw_block<AnyRule>(t, edges, masks, block, ctx.depth, trace);
+        draw_block<Rule>(t, edges, masks, block, ctx.depth, trace);
         const std::uint64_t passed = trace.passed & box_pixels(t, x, y);
         if (passed == 0) continue;
         ctx.passed[block] = passed;
@@ -374,61 +377,6 @@ void cover(const CoverCtx& ctx) noexcept {
     }
     *ctx.blocks = blocks;
 }
-
-/// Set bits of a byte as 16-bit positions, packed to the front; a table of 256 rows of 16 bytes.
-struct BitPositions {
-    alignas(16) std::uint16_t row[256][8];
-};
-constexpr BitPositions make_bit_positions() {
-    BitPositions table{};
-    for (int byte = 0; byte < 256; ++byte) {
-        int n = 0;
-        for (int bit = 0; bit < 8; ++bit) {
-            if ((byte >> bit & 1) != 0) table.row[byte][n++] = static_cast<std::uint16_t>(bit);
-        }
-    }
-    return table;
-}
-constexpr BitPositions kBitPositions = make_bit_positions();
-
-/// Appends first_pixel plus the positions of the set bits, row by row; writes up to 8 values past
-/// the last. Four rows at a time, whatever is in them: to branch on each costs more. The sums do
-/// not carry from one 16-bit part of a word to the next.
-inline std::uint16_t* append_pixels(std::uint64_t mask, std::uint64_t first_pixel,
-                                    std::uint16_t* out) {
-    constexpr std::uint64_t kOnes = 0x0001000100010001U;
-    const auto append_rows = [&](std::uint64_t rows, std::uint64_t base) {
-#pragma GCC unroll 4
-        for (int row = 0; row < 4; ++row, rows >>= 8, base += 8 * kOnes) {
-            std::uint64_t words[2];
-            __builtin_memcpy(words, kBitPositions.row[rows & 255], sizeof words);
-            words[0] += base;
-            words[1] += base;
-            __builtin_memcpy(out, words, sizeof words);
-            out += __builtin_popcountll(rows & 255);
-        }
-    };
-    const std::uint64_t base = first_pixel * kOnes;
-    if ((mask & 0xffffffffU) != 0) append_rows(mask, base);
-    if (mask >> 32 != 0) append_rows(mask >> 32, base + 32 * kOnes);
-    return out;
-}
-
-void collect(const CollectCtx& ctx) noexcept {
-    std::uint16_t* out = ctx.pixels;
-    for (int k = 0; k < ctx.count; ++k) {
-        const I32 id(k);
-        std::uint16_t* const first = out;
-        for (std::uint64_t rest = ctx.drawn[k]; rest != 0; rest &= rest - 1) {
-            const int first_pixel = __builtin_ctzll(rest) * kBlockPixels;
-            const auto* ids = reinterpret_cast<const std::int32_t*>(ctx.id) + first_pixel;
-            std::uint64_t shown = 0;
-            for (int v = 0; v < kBlockVectors; ++v) {
-                shown |= static_cast<std::uint64_t>(bits(load(ids + v * kLanes32) == id))
-                         << (v * kLanes32);
-            }
-            out = append_pixels(shown, static_cast<std::uint64_t>(first_pixel), out);
-        }
-        ctx.size[k] = static_cast<std::uint16_t>(out - first);
-    }
+void cover(const CoverCtx& ctx) noexcept {
+    nearer_wins(*ctx.triangle) ? cover_by<NearerWins>(ctx) : cover_by<AnyRule>(ctx);
 }

@@ -92,6 +92,7 @@ struct Renderer::State {
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
+    std::size_t first_chunk(std::int32_t x, std::int32_t y) const;
     void shade_visible(Worker& worker);
     void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const TileEntry> entries);
     float* saved_depth(std::int32_t x, std::int32_t y);
@@ -108,6 +109,7 @@ struct Renderer::State {
     FrameSize size{};
     std::vector<std::unique_ptr<Draw>> draws;
     std::vector<DepthRule> depth_rules;
+    std::vector<bool> overwrites;  ///< where a draw covers a pixel nothing before it matters
     std::vector<ShadedDraw> shaded_draws;
     std::vector<ChunkRange> ranges;
     std::size_t next_range = 0;  ///< first one not binned yet
@@ -253,12 +255,19 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
 void Renderer::State::transform(const Scene& scene) {
     const StageScope scope(FrameStage::transform);
     depth_rules.clear();
+    overwrites.clear();
     shaded_draws.clear();
+    bool depths_matter = false;
     for (std::size_t i = 0; i < draws.size(); ++i) {
         Draw& draw = *draws[i];
         draw.shaded = !depth_alone || draw.output.late_depth;
         transform_draw(draw, frame, scene.objects[i], kernels, pool);
         depth_rules.push_back(draw.depth);
+        const DepthRule& rule = draw.output.depth;
+        const bool always =
+            rule.pass_less != 0 && rule.pass_equal != 0 && rule.pass_greater != 0 && !draw.ordered;
+        overwrites.push_back(always && (rule.write != 0 || !depths_matter));
+        depths_matter = depths_matter || rule.write != 0;
         shaded_draws.push_back(
             {&draw.shading, &draw.output, draw.mesh(), draw.shown ? &*draw.shown : nullptr});
     }
@@ -366,7 +375,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         worker.has_background = true;
     }
     worker.shader.begin({visibility.left(), visibility.top(), output_of(worker)});
-    for (const auto& chunk : binned) {
+    for (const auto& chunk : binned.subspan(first_chunk(x, y))) {
         const std::span<const TileEntry> entries = chunk->tile(x, y);
         if (entries.empty()) continue;
         if (draws[chunk->triangles()[entries.front().triangle].draw]->ordered) {
@@ -390,6 +399,18 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         worker.image.resolve_depths(visibility.depth(), target, visibility.left(),
                                     visibility.top());
     }
+}
+
+/// The chunk from which on a tile has to be drawn: a triangle of its covers all that was before.
+std::size_t Renderer::State::first_chunk(std::int32_t x, std::int32_t y) const {
+    for (std::size_t i = chunk_count; i-- > 1;) {
+        for (const TileEntry& entry : chunks[i]->tile(x, y)) {
+            const SetupTriangle& triangle = chunks[i]->triangles()[entry.triangle];
+            if (!overwrites[triangle.draw]) break;
+            if (covers_tile(triangle, x, y, size)) return i;
+        }
+    }
+    return 0;
 }
 
 OutputTile Renderer::State::output_of(Worker& worker) const {

@@ -273,6 +273,62 @@ TEST(OrderedDraws, RandomScenesAreWhatAPainterPaints) {
     }
 }
 
+/// A triangle over all of the frame.
+Triangle sheet(Random& random, int width, int height, float depth) {
+    Triangle t = random_triangle(random, width, height);
+    t.depth = depth;
+    const auto w = static_cast<float>(width), h = static_cast<float>(height);
+    t.corner[0].position = {-9.0F, -9.0F, depth, 1.0F};
+    t.corner[1].position = {-9.0F, 3.0F * h, depth, 1.0F};
+    t.corner[2].position = {3.0F * w, -9.0F, depth, 1.0F};
+    return t;
+}
+
+// Sheets that lie over everything without a depth test, between other draws: whole tiles begin
+// anew there, unless depths of before are compared with later.
+TEST(OrderedDraws, SheetsWithoutADepthTestHideWhatWasDrawn) {
+    constexpr int kWidth = 70, kHeight = 66;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        Random random(seed);
+        std::vector<Layer> layers = random_layers(random, kWidth, kHeight);
+        const bool writes_before = random.chance(2);
+        for (Layer& layer : layers) layer.depth_write = layer.depth_write && writes_before;
+        Layer over;
+        over.triangles = {sheet(random, kWidth, kHeight, 0.5F)};
+        over.depth_test = DepthTest::always;
+        over.depth_write = random.chance(3);
+        if (random.chance(4)) over.blend = Blend::alpha();
+        layers.push_back(over);
+        for (Layer& layer : random_layers(random, kWidth, kHeight)) layers.push_back(layer);
+        const Painting want = painted(layers, kWidth, kHeight);
+        const Scene scene = scene_of(layers, kWidth, kHeight);
+        Renderer renderer({.threads = 1});
+        Framebuffer frame(kWidth, kHeight);
+        renderer.render(scene, frame);
+        ASSERT_EQ(difference(frame, want.colors), "") << "seed " << seed;
+    }
+}
+
+TEST(OrderedDraws, HiddenBlendsAreNotShaded) {
+    constexpr int kWidth = 140, kHeight = 130;
+    Random random(1);
+    Layer below, over;
+    for (int i = 0; i < 5; ++i) below.triangles.push_back(sheet(random, kWidth, kHeight, 0.25F));
+    below.blend = Blend::alpha();
+    over.triangles = {sheet(random, kWidth, kHeight, 0.5F)};
+    below.depth_test = over.depth_test = DepthTest::always;
+    Renderer renderer({.threads = 1});
+    Framebuffer frame(kWidth, kHeight);
+    const auto shaded = [&] {
+        return renderer.render(scene_of({below, over}, kWidth, kHeight), frame).shaded_pixels;
+    };
+    EXPECT_EQ(shaded(), 1U * kWidth * kHeight);
+    over.depth_write = false;  // depths of before may matter
+    EXPECT_EQ(shaded(), 6U * kWidth * kHeight);
+    below.depth_write = false;
+    EXPECT_EQ(shaded(), 1U * kWidth * kHeight);
+}
+
 // ---- what shading may say of a fragment, with shadings made by hand
 
 /// One tile, drawn as the renderer does, after `change` had its way with every draw's shading.

@@ -55,4 +55,15 @@ bool tile_triangle(const SetupTriangle& t, std::int32_t tile_x, std::int32_t til
     return true;
 }
 
+bool covers_tile(const SetupTriangle& t, std::int32_t tile_x, std::int32_t tile_y,
+                 FrameSize frame) {
+    const std::int32_t left = tile_x * kTileSize, top = tile_y * kTileSize;
+    const PixelRect& box = t.box;
+    const bool in_box = box.x0 <= left && box.y0 <= top &&
+                        box.x1 >= std::min(left + kTileSize, frame.width) - 1 &&
+                        box.y1 >= std::min(top + kTileSize, frame.height) - 1;
+    TileTriangle seen;
+    return in_box && tile_triangle(t, tile_x, tile_y, seen) && seen.edges == 0;
+}
+
 }  // namespace burnish

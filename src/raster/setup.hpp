@@ -15,4 +15,8 @@ enum class Facing : std::uint8_t { any, front_only, back_only };
 bool tile_triangle(const SetupTriangle& triangle, std::int32_t tile_x, std::int32_t tile_y,
                    TileTriangle& out);
 
+/// Whether the triangle covers all pixels of the frame that lie in a tile.
+bool covers_tile(const SetupTriangle& triangle, std::int32_t tile_x, std::int32_t tile_y,
+                 FrameSize frame);
+
 }  // namespace burnish
