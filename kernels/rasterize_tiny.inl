@@ -137,7 +137,8 @@ void rasterize_tiny(const RasterizeTinyCtx& ctx) {
                 append_fragments(entry, ctx.triangles[entry.triangle], ctx, next, count, fragments);
         }
         draw_fragments<Usual, HasIds>(fragments, count, ctx);
-        for (int k = first; HasIds && k < next; ++k) {
+        if constexpr (!HasIds) continue;
+        for (int k = first; k < next; ++k) {
             ctx.drawn[k] = drawn_blocks(ctx.entries[k], fragments.passed + kQuarters * (k - first));
         }
     }

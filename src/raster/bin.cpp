@@ -89,6 +89,7 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
         i += static_cast<std::size_t>(counts.taken);
         if (i < last) add_clipped(source, i, ctx, kernels);
     }
+    m_counts.binned = m_count;
     const StageScope bin(FrameStage::bin, m_count);
     sort_into_tiles();
 }
@@ -161,7 +162,6 @@ void Chunk::sort_into_tiles() {
     for (std::uint32_t i = 0; i < m_count; ++i) {
         const SetupPlace& place = m_places[i];
         if (place.tiles == 0) {
-            ++m_counts.binned;
             ++m_first[tile_number(place.x / kTileSize, place.y / kTileSize) + 2];
         } else {
             add_parts(i);
@@ -194,7 +194,6 @@ void Chunk::add_parts(std::uint32_t index) {
     const SetupTriangle& triangle = m_triangles[index];
     const PixelRect& box = triangle.box;
     const TileEntry whole{m_places[index].covered, index, 0, 0};
-    const std::size_t before = m_parts.size();
     for (std::int32_t y = box.y0 / kTileSize; y <= box.y1 / kTileSize; ++y) {
         for (std::int32_t x = box.x0 / kTileSize; x <= box.x1 / kTileSize; ++x) {
             TileEntry part = whole;
@@ -208,7 +207,6 @@ void Chunk::add_parts(std::uint32_t index) {
             m_parts.push_back({static_cast<std::uint32_t>(tile_number(x, y)), part});
         }
     }
-    if (m_parts.size() != before) ++m_counts.binned;
 }
 
 }  // namespace burnish

@@ -17,7 +17,7 @@ struct BinCounts {
     std::uint64_t nonfinite = 0;
     std::uint64_t degenerate = 0;
     std::uint64_t clipped = 0;
-    std::uint64_t binned = 0;  ///< in the list of a tile
+    std::uint64_t binned = 0;  ///< set up, to be sorted into tiles
 };
 
 /// Where a chunk's triangles come from and where they go.
