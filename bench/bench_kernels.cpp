@@ -438,18 +438,19 @@ void add_rasterize_tiny() {
 
 /// The fragments of squares(side), as `rasterize` left them.
 struct Fragments {
-    std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(kTilePixels + 8);
-    std::vector<std::uint16_t> size;
+    std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(kTilePixels + 16);
+    std::vector<std::uint32_t> first;
 
     void collect(const KernelTable& table, const Tile& tile) {
-        size.resize(tile.drawn.size());
+        first.resize(tile.drawn.size() + 2);
         table.collect({tile.id.data(), tile.drawn.data(), static_cast<int>(tile.drawn.size()),
-                       pixels.data(), size.data()});
+                       pixels.data(), first.data()});
+        first.pop_back();  // scratch
     }
 };
 
 void add_collect() {
-    for (const int side : {4, 16, 64}) {
+    for (const int side : {2, 4, 16, 64}) {
         Tile tile;
         tile.draw(table_reference(), squares(side));
         add(
@@ -461,7 +462,7 @@ void add_collect() {
                 want.collect(table_reference(), tile);
                 got.pixels.resize(kTilePixels);
                 want.pixels.resize(kTilePixels);
-                return got.size == want.size && got.pixels == want.pixels ? "" : "fragments";
+                return got.first == want.first && got.pixels == want.pixels ? "" : "fragments";
             },
             [=](const KernelTable& table, benchmark::State& state) {
                 Fragments out;
@@ -684,6 +685,11 @@ void add_levels() {
                      FetchHiloCtx{texels.data(), 20, 2112}, {.planes = {20, 21}});
     add_packet_stage("fetch_words", &KernelTable::fetch_words, packet,
                      FetchWordsCtx{texels.data(), 20, 2112}, {.planes = {20, 21, 22, 23}});
+    for (std::int32_t& texel : packet.texel) texel = 4 * texel % 4096;
+    Written fetched;
+    for (int plane = 16; plane < 32; ++plane) fetched.planes.push_back(plane);
+    add_packet_stage("fetch_quartet", &KernelTable::fetch_quartet, packet,
+                     FetchQuartetCtx{texels.data(), {16, 20, 24, 28}, 2112}, fetched);
     add_packet_stage("hilo", &KernelTable::hilo, packet, HiloCtx{5, 7, 0}, {.attributes = {7, 8}});
 }
 

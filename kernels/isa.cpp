@@ -2,6 +2,8 @@
 ///   BURNISH_ISA    name of the namespace and of the table, e.g. avx2
 ///   BURNISH_ARCH   xsimd's architecture, e.g. avx2
 ///   BURNISH_TABLE  the one function that leaves this file, e.g. table_avx2
+#include <utility>
+
 #include "kernels/kernel_table.hpp"
 #include "kernels/log2_steps.hpp"
 #include "kernels/simd.hpp"
@@ -14,6 +16,7 @@ namespace {
 
 #include "kernels/attribute_planes.inl"
 #include "kernels/clear.inl"
+#include "kernels/collect.inl"
 #include "kernels/combine.inl"
 #include "kernels/fetch.inl"
 #include "kernels/final.inl"  // after combine.inl, whose products it uses

@@ -115,6 +115,16 @@ struct FetchWordsCtx {
     std::int32_t pitch;  ///< bytes
 };
 
+/// Four textures of such texels between each other, 32 bytes from left to right: texture k's texel
+/// begins 8 k bytes on and goes to four planes from plane[k] on, or nowhere where that is -1.
+struct FetchQuartetCtx {
+    static constexpr int kTextures = 4;
+    static constexpr int kTexelBytes = 32, kNextTexture = 8;
+    const std::uint8_t* texels;
+    int plane[kTextures];
+    std::int32_t pitch;  ///< bytes
+};
+
 /// Planes out + c = a + (b - a) * w / 256 of planes a + c and b + c, rounded half up, with the low
 /// 8 bits of plane `weight` as w. Channels of `doubled` hold even codes 2 n; n is what is rounded.
 struct BlendLevelsCtx {

@@ -33,19 +33,27 @@ constexpr TinyPositions kTinyPositions = make_tiny_positions();
 struct TinyFragments {
     static constexpr int kEnough = 128;
     static constexpr int kMost = kEnough + kTinySize * kTinySize + kLanes32;
-    std::int32_t depth[kMost];  ///< bits of a float
-    std::int32_t pixel[kMost];
-    std::int32_t triangle[kMost];
-    int count = 0;
+    static constexpr int kQuarters = 4;  ///< blocks that a triangle may reach into: 2 x 2
+    std::int32_t depth[kMost];           ///< bits of a float
+    /// Tile index, and from bit 16 on 4 x (triangle - first_triangle) + the quarter.
+    std::int32_t place[kMost];
+    /// By quarters of triangles: 1 if a fragment passed there. The last is for those that did not.
+    std::uint8_t passed[kQuarters * kEnough + 1];
+    int first_triangle = 0;
 };
 
-inline void append_fragments(const TileEntry& entry, const SetupTriangle& t,
-                             const RasterizeTinyCtx& ctx, int number, TinyFragments& out) {
+/// Appends a triangle's fragments behind the first `count`; returns how many there are then. The
+/// number is handed on, since what lies in memory would be read again after every store.
+inline int append_fragments(const TileEntry& entry, const SetupTriangle& t,
+                            const RasterizeTinyCtx& ctx, int triangle, int count,
+                            TinyFragments& out) {
     constexpr int kLast = kBlockSize - 1;
     const F32 z0(t.z), zx(t.zx), zy(t.zy), low(t.z_low), high(t.z_high);
     const F32 corner_x(static_cast<float>(entry.x + ctx.left - t.reference_x));
     F32 dy = F32(static_cast<float>(entry.y + ctx.top - t.reference_y)) + load(kTinyPositions.y);
-    const I32 first_pixel(((entry.y & ~kLast) + entry.x / kBlockSize) * kBlockPixels);
+    const int first_quarter = (triangle - out.first_triangle) * TinyFragments::kQuarters;
+    const I32 first_place(((entry.y & ~kLast) + entry.x / kBlockSize) * kBlockPixels +
+                          (first_quarter << 16));
     const std::uint16_t* const column = kTinyPositions.column[entry.x & kLast];
     const std::uint16_t* row = kTinyPositions.row[entry.y & kLast];
     std::uint64_t covered = entry.covered;
@@ -54,33 +62,37 @@ inline void append_fragments(const TileEntry& entry, const SetupTriangle& t,
             // Whole numbers below 2^24: exact, however they are added.
             const F32 dx = corner_x + load(kTinyPositions.x + part * kLanes32);
             const F32 z = min(max((z0 + dx * zx) + dy * zy, low), high);
-            const I32 pixel =
-                first_pixel + load_widened(column + part * kLanes32) + load_widened(row);
+            const I32 at = load_widened(column + part * kLanes32) + load_widened(row);
+            // Bit 6: the block to the right; bit 9: the one below.
+            const I32 quarter = ((at << 10) & I32(1 << 16)) | ((at << 8) & I32(1 << 17));
             const std::uint32_t lanes =
                 static_cast<std::uint32_t>(covered) & ((1U << kLanes32) - 1);
-            store_packed(out.depth + out.count, as_i32(z), lanes);
-            store_packed(out.pixel + out.count, pixel, lanes);
-            store(out.triangle + out.count, I32(number));
-            out.count += __builtin_popcount(lanes);
+            store_packed(out.depth + count, as_i32(z), lanes);
+            store_packed(out.place + count, first_place + at + quarter, lanes);
+            count += __builtin_popcount(lanes);
             covered >>= kLanes32;
         }
         dy = dy + F32(static_cast<float>(kVectorRows));
         row += kVectorRows * kTinySize;
     } while (covered != 0);
+    return count;
 }
 
 /// Tests and writes fragments one by one. Whether one passes cannot be foretold, so what fails is
 /// written, too, where nobody looks.
 template <bool Usual, bool HasIds>
-inline void draw_fragments(const TinyFragments& fragments, const RasterizeTinyCtx& ctx) {
+inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeTinyCtx& ctx) {
+    constexpr std::uint32_t kNowhere = TinyFragments::kQuarters * TinyFragments::kEnough;
     const DepthRule rule = ctx.rule;
     float* const depth = ctx.depth;
     std::uint32_t* const id = ctx.id;
-    std::uint64_t* const drawn = ctx.drawn;
-    for (int i = 0; i < fragments.count; ++i) {
+    const std::uint32_t first_id =
+        ctx.first_id + static_cast<std::uint32_t>(fragments.first_triangle);
+    for (int i = 0; i < count; ++i) {
         float z = 0.0F;
         __builtin_memcpy(&z, fragments.depth + i, sizeof z);
-        const std::int32_t pixel = fragments.pixel[i];
+        const auto place = static_cast<std::uint32_t>(fragments.place[i]);
+        const std::uint32_t pixel = place & 0xffff, quarter = place >> 16;
         const float old = depth[pixel];
         bool pass = z < old;
         if constexpr (!Usual) {
@@ -88,13 +100,12 @@ inline void draw_fragments(const TinyFragments& fragments, const RasterizeTinyCt
                    : z > old ? rule.pass_greater != 0
                              : rule.pass_equal != 0;
         }
-        const std::int32_t place = pass ? pixel : kTilePixels;
+        const std::uint32_t to = pass ? pixel : kTilePixels;
         if constexpr (HasIds) {
-            const std::int32_t triangle = fragments.triangle[i];
-            id[place] = ctx.first_id + static_cast<std::uint32_t>(triangle);
-            drawn[triangle] |= static_cast<std::uint64_t>(pass ? 1 : 0) << pixel / kBlockPixels;
+            fragments.passed[pass ? quarter : kNowhere] = 1;
+            id[to] = first_id + quarter / TinyFragments::kQuarters;
         }
-        if (Usual || rule.write != 0) depth[place] = z;
+        if (Usual || rule.write != 0) depth[to] = z;
         if constexpr (!Usual) {
             float& far = ctx.block_far[pixel / kBlockPixels];
             if (pass && rule.write != 0 && z > far) far = z;
@@ -102,19 +113,33 @@ inline void draw_fragments(const TinyFragments& fragments, const RasterizeTinyCt
     }
 }
 
+/// Blocks of the 2 x 2 from the mask's corner on in which a fragment passed.
+inline std::uint64_t drawn_blocks(const TileEntry& entry, const std::uint8_t* passed) {
+    const std::uint64_t blocks = passed[0] | passed[1] << 1 | passed[2] << 8 | passed[3] << 9;
+    return blocks << (entry.y / kBlockSize * kBlockSize + entry.x / kBlockSize);
+}
+
 template <bool Usual, bool HasIds>
 void rasterize_tiny(const RasterizeTinyCtx& ctx) {
+    constexpr int kQuarters = TinyFragments::kQuarters;
     TinyFragments fragments;
-    for (int k = 0; k < ctx.count; ++k) {
-        const TileEntry& entry = ctx.entries[k];
-        constexpr int kAhead = 8;  // a mesh's triangles lie far apart along a tile
-        if (k + kAhead < ctx.count)
-            __builtin_prefetch(ctx.triangles + ctx.entries[k + kAhead].triangle);
-        if constexpr (HasIds) ctx.drawn[k] = 0;
-        append_fragments(entry, ctx.triangles[entry.triangle], ctx, k, fragments);
-        if (fragments.count < TinyFragments::kEnough && k + 1 < ctx.count) continue;
-        draw_fragments<Usual, HasIds>(fragments, ctx);
-        fragments.count = 0;
+    for (int next = 0; next < ctx.count;) {
+        const int first = fragments.first_triangle = next;
+        int count = 0;
+        for (; count < TinyFragments::kEnough && next < ctx.count; ++next) {
+            constexpr int kAhead = 8;  // a mesh's triangles lie far apart along a tile
+            if (next + kAhead < ctx.count)
+                __builtin_prefetch(ctx.triangles + ctx.entries[next + kAhead].triangle);
+            __builtin_memset(fragments.passed + kQuarters * (next - first), 0, kQuarters);
+            const TileEntry& entry = ctx.entries[next];
+            count =
+                append_fragments(entry, ctx.triangles[entry.triangle], ctx, next, count, fragments);
+        }
+        draw_fragments<Usual, HasIds>(fragments, count, ctx);
+        if constexpr (!HasIds) continue;
+        for (int k = first; k < next; ++k) {
+            ctx.drawn[k] = drawn_blocks(ctx.entries[k], fragments.passed + kQuarters * (k - first));
+        }
     }
 }
 

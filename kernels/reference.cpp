@@ -300,14 +300,14 @@ void cover(const CoverCtx& ctx) noexcept {
 void collect(const CollectCtx& ctx) noexcept {
     std::uint16_t* out = ctx.pixels;
     for (int k = 0; k < ctx.count; ++k) {
-        std::uint16_t* const first = out;
+        ctx.first[k] = static_cast<std::uint32_t>(out - ctx.pixels);
         for (int pixel = 0; pixel < kTilePixels; ++pixel) {
             const bool drawn = (ctx.drawn[k] >> pixel / kBlockPixels & 1) != 0;
             if (drawn && ctx.id[pixel] == static_cast<std::uint32_t>(k))
                 *out++ = static_cast<std::uint16_t>(pixel);
         }
-        ctx.size[k] = static_cast<std::uint16_t>(out - first);
     }
+    ctx.first[ctx.count] = static_cast<std::uint32_t>(out - ctx.pixels);
 }
 
 // ---- from triangles to registers
@@ -897,6 +897,25 @@ void fetch_words(Packet& packet, const FetchWordsCtx& ctx) noexcept {
     }
 }
 
+void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const Int wx = packet.weight_x[i], wy = packet.weight_y[i];
+        for (int k = 0; k < FetchQuartetCtx::kTextures; ++k) {
+            for (int c = 0; c < 4 && ctx.plane[k] >= 0; ++c) {
+                const auto row = [&](std::ptrdiff_t left) {
+                    const std::ptrdiff_t channel = left + FetchQuartetCtx::kNextTexture * k + 2 * c;
+                    return (256 - wx) * word_at(ctx.texels, channel) +
+                           wx * word_at(ctx.texels, channel + FetchQuartetCtx::kTexelBytes);
+                };
+                const Int top = row(packet.texel[i]), bottom = row(packet.texel[i] + ctx.pitch);
+                const Int x = shift_half_up((256 - wy) * top + wy * bottom, 16);
+                plane(packet, ctx.plane[k] + c)[i] =
+                    static_cast<std::int16_t>((x + 32768 + 2) >> 2);
+            }
+        }
+    }
+}
+
 void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) noexcept {
     for (int i = 0; i < packet.count; ++i) {
         const Int w = plane(packet, ctx.weight)[i] & 255;
@@ -1393,6 +1412,7 @@ const KernelTable& table_reference() noexcept {
         .level_address = level_address,
         .fetch_hilo = fetch_hilo,
         .fetch_words = fetch_words,
+        .fetch_quartet = fetch_quartet,
         .blend_levels = blend_levels,
         .hilo = hilo,
         .portion_nine_bit = portion<NineBit>,

@@ -34,6 +34,8 @@ using MaskF = ::xsimd::batch_bool<float, Arch>;
 inline constexpr int kLanes = static_cast<int>(I16::size);    // 16-bit
 inline constexpr int kLanes32 = static_cast<int>(I32::size);  // 32-bit
 inline constexpr int kParts = kLanes / 8;                     // 128-bit lanes
+/// Vectors that take the 64 bytes of two texels of 16 words.
+inline constexpr int kTexelRowVectors = 32 / kLanes;
 
 /// Number of each lane.
 struct LaneNumbers {
@@ -212,6 +214,15 @@ inline F32 to_float(const Doubles& v) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(v.low)),
                               _mm512_cvtpd_ps(v.high), 1);
 }
+/// Writes first + k for every lane k of `which`, rising; returns the end. May write kLanes32
+/// values.
+inline std::uint16_t* append_lanes(std::uint16_t* out, int first, Mask32 which) {
+    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i value = _mm512_add_epi32(lane, _mm512_set1_epi32(first));
+    const __m512i packed = _mm512_maskz_compress_epi32(which.data, value);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm512_cvtepi32_epi16(packed));
+    return out + __builtin_popcount(which.data);
+}
 /// Lane k of the result is lane index[k], 0 .. kLanes32 - 1.
 struct LaneOrder {
     explicit LaneOrder(I32 index) : order(index) {}
@@ -303,6 +314,27 @@ inline I16 zip_lanes_lo(I16 a, I16 b) {
 }
 inline I16 zip_lanes_hi(I16 a, I16 b) {
     return _mm512_permutex2var_epi64(a, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), b);
+}
+
+/// The upper words of a and of b in turn.
+inline I16 upper_words(I32 a, I32 b) {
+    return _mm512_mask_blend_epi16(0xaaaaaaaaU, _mm512_srli_epi32(a, 16), b);
+}
+/// Two texels of 16 words at p, word by word left and right: lane k of vector j has words
+/// 4 (kTexelRowVectors k + j) and the three behind it.
+inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) {
+    alignas(64) static constexpr std::int16_t kSides[32] = {
+        0, 16, 1, 17, 2,  18, 3,  19, 4,  20, 5,  21, 6,  22, 7,  23,
+        8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
+    row[0] = _mm512_permutexvar_epi16(_mm512_load_si512(kSides), _mm512_loadu_si512(p));
+}
+/// Lane k to p[k].
+inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
+    const __m256i low = _mm512_castsi512_si256(v), high = _mm512_extracti64x4_epi64(v, 1);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[0]), _mm256_castsi256_si128(low));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[1]), _mm256_extracti128_si256(low, 1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[2]), _mm256_castsi256_si128(high));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[3]), _mm256_extracti128_si256(high, 1));
 }
 
 #elif defined(__AVX2__)
@@ -460,6 +492,20 @@ inline I16 zip_lanes_hi(I16 a, I16 b) {
     return odd_lanes(a, b);
 }
 
+inline I16 upper_words(I32 a, I32 b) {
+    return _mm256_blend_epi16(_mm256_srli_epi32(a, 16), b, 0xaa);
+}
+inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) {
+    const __m256i left = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+    const __m256i right = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p + 32));
+    row[0] = _mm256_unpacklo_epi16(left, right);
+    row[1] = _mm256_unpackhi_epi16(left, right);
+}
+inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[0]), _mm256_castsi256_si128(v));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[1]), _mm256_extracti128_si256(v, 1));
+}
+
 #elif defined(__SSE4_2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -598,6 +644,21 @@ inline I16 zip_lanes_lo(I16 a, I16) {
 }
 inline I16 zip_lanes_hi(I16, I16 b) {
     return b;
+}
+
+inline I16 upper_words(I32 a, I32 b) {
+    return _mm_blend_epi16(_mm_srli_epi32(a, 16), b, 0xaa);
+}
+inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) {
+    const auto* const words = reinterpret_cast<const std::int16_t*>(p);
+    for (int half = 0; half < 2; ++half) {
+        const I16 left = load(words + 8 * half), right = load(words + 8 * half + 16);
+        row[2 * half] = zip_lo16(left, right);
+        row[2 * half + 1] = zip_hi16(left, right);
+    }
+}
+inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
+    store(p[0], v);
 }
 
 #elif defined(__aarch64__)
@@ -749,6 +810,21 @@ inline I16 zip_lanes_hi(I16, I16 b) {
     return b;
 }
 
+inline I16 upper_words(I32 a, I32 b) {
+    return vtrn2q_s16(vreinterpretq_s16_s32(a), vreinterpretq_s16_s32(b));
+}
+inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) {
+    const auto* const words = reinterpret_cast<const std::int16_t*>(p);
+    for (int half = 0; half < 2; ++half) {
+        const I16 left = load(words + 8 * half), right = load(words + 8 * half + 16);
+        row[2 * half] = zip_lo16(left, right);
+        row[2 * half + 1] = zip_hi16(left, right);
+    }
+}
+inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
+    store(p[0], v);
+}
+
 #else
 #error "no vector wrappers for this architecture"
 #endif
@@ -778,6 +854,35 @@ inline I32 widen_lo(I16 v) {
 inline I32 widen_hi(I16 v) {
     return as_i32(zip_hi16(v, v)) >> 16;
 }
+
+#if !defined(__AVX512BW__)
+/// Set bits of a byte as 16-bit positions, packed to the front.
+struct BitPositions {
+    alignas(16) std::uint16_t row[1 << kLanes32][8];
+};
+constexpr BitPositions make_bit_positions() {
+    BitPositions table{};
+    for (int lanes = 0; lanes < 1 << kLanes32; ++lanes) {
+        int n = 0;
+        for (int bit = 0; bit < kLanes32; ++bit) {
+            if ((lanes >> bit & 1) != 0) table.row[lanes][n++] = static_cast<std::uint16_t>(bit);
+        }
+    }
+    return table;
+}
+constexpr BitPositions kBitPositions = make_bit_positions();
+
+/// The sums do not carry from one 16-bit part of a word to the next.
+inline std::uint16_t* append_lanes(std::uint16_t* out, int first, Mask32 which) {
+    constexpr std::uint64_t kOnes = 0x0001000100010001U;
+    const std::uint32_t lanes = bits(which);
+    std::uint64_t words[kLanes32 / 4];
+    __builtin_memcpy(words, kBitPositions.row[lanes], sizeof words);
+    for (std::uint64_t& word : words) word += static_cast<std::uint64_t>(first) * kOnes;
+    __builtin_memcpy(out, words, sizeof words);
+    return out + __builtin_popcount(lanes);
+}
+#endif
 
 /// Four vectors of 32-bit numbers.
 struct Columns {

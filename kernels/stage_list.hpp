@@ -47,6 +47,7 @@
     X(level_address, LevelAddressCtx)     \
     X(fetch_hilo, FetchHiloCtx)           \
     X(fetch_words, FetchWordsCtx)         \
+    X(fetch_quartet, FetchQuartetCtx)     \
     X(blend_levels, BlendLevelsCtx)       \
     X(hilo, HiloCtx)                      \
     X(portion_nine_bit, PortionCtx)       \

@@ -288,8 +288,9 @@ struct CollectCtx {
     const std::uint32_t* id;     ///< kTilePixels
     const std::uint64_t* drawn;  ///< per triangle, as RasterizeCtx has it: all blocks that show it
     int count;
-    std::uint16_t* pixels;  ///< out: tile indices; kernels may write 8 values past the last
-    std::uint16_t* size;    ///< out: pixels of each triangle, 0 .. kTilePixels
+    std::uint16_t* pixels;  ///< out: tile indices, room for kTilePixels + 16; the rest is garbage
+    /// Out: triangle k has pixels first[k] .. first[k + 1] - 1; one more number of scratch behind.
+    std::uint32_t* first;
 };
 
 }  // namespace burnish

@@ -155,7 +155,7 @@ class Measure {
         const TileFragments found = tile.collect(m_kernels);
         const std::uint16_t* pixels = found.pixels;
         for (std::size_t i = 0; i < found.triangles.size(); ++i) {
-            for (int left = found.size[i]; left > 0;) {
+            for (int left = found.size(i); left > 0;) {
                 const int count = std::min(left, kPacketSize);
                 measure_run(tile, *found.triangles[i], pixels, count);
                 pixels += count;

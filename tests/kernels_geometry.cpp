@@ -470,19 +470,20 @@ struct Visible {
 
 void check_collect(const KernelTable& table, const Visible& v, const std::string& where) {
     struct Lists {
-        std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(kTilePixels + 8, 0xffff);
-        std::vector<std::uint16_t> size;
+        std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(kTilePixels + 16, 0xffff);
+        std::vector<std::uint32_t> first;
     };
     const auto lists = [&](const KernelTable& kernels) {
         Lists out;
-        out.size.resize(v.drawn.size(), 0xffff);
+        out.first.resize(v.drawn.size() + 2, 0xffff);
         kernels.collect({v.id.data(), v.drawn.data(), static_cast<int>(v.drawn.size()),
-                         out.pixels.data(), out.size.data()});
-        out.pixels.resize(std::accumulate(out.size.begin(), out.size.end(), std::size_t{0}));
+                         out.pixels.data(), out.first.data()});
+        out.first.pop_back();  // scratch
+        out.pixels.resize(out.first.back());
         return out;
     };
     const Lists got = lists(table), want = lists(table_reference());
-    ASSERT_EQ(got.size, want.size) << where;
+    ASSERT_EQ(got.first, want.first) << where;
     ASSERT_EQ(got.pixels, want.pixels) << where;
 }
 
@@ -501,10 +502,11 @@ TEST_P(KernelTest, CollectOfRandomTiles) {
 TEST_P(KernelTest, CollectOfAWholeTileIsEveryPixelInOrder) {
     const AlignedVector<std::uint32_t> id(kTilePixels, 1);
     const std::array<std::uint64_t, 3> drawn{0, ~std::uint64_t{0}, ~std::uint64_t{0}};
-    std::vector<std::uint16_t> pixels(kTilePixels + 8);
-    std::array<std::uint16_t, 3> size{};
-    table().collect({id.data(), drawn.data(), 3, pixels.data(), size.data()});
-    EXPECT_EQ(size, (std::array<std::uint16_t, 3>{0, kTilePixels, 0}));
+    std::vector<std::uint16_t> pixels(kTilePixels + 16);
+    std::array<std::uint32_t, 5> first{};
+    table().collect({id.data(), drawn.data(), 3, pixels.data(), first.data()});
+    EXPECT_EQ(std::vector(first.begin(), first.end() - 1),
+              (std::vector<std::uint32_t>{0, 0, kTilePixels, kTilePixels}));
     for (std::size_t i = 0; i < kTilePixels; ++i) ASSERT_EQ(pixels[i], i) << name("collect");
 }
 
@@ -516,10 +518,11 @@ TEST_P(KernelTest, CollectOfFourThousandTriangles) {
         id[i] = static_cast<std::uint32_t>(k);
         drawn[k] = std::uint64_t{1} << i / kBlockPixels;
     }
-    std::vector<std::uint16_t> pixels(kTilePixels + 8), size(kTilePixels);
-    table().collect({id.data(), drawn.data(), kTilePixels, pixels.data(), size.data()});
+    std::vector<std::uint16_t> pixels(kTilePixels + 16);
+    std::vector<std::uint32_t> first(kTilePixels + 2);
+    table().collect({id.data(), drawn.data(), kTilePixels, pixels.data(), first.data()});
     for (std::size_t k = 0; k < kTilePixels; ++k) {
-        ASSERT_EQ(size[k], 1) << name("collect");
+        ASSERT_EQ(first[k], k) << name("collect");
         ASSERT_EQ(id[pixels[k]], k) << name("collect");
     }
 }

@@ -264,6 +264,30 @@ TEST_P(KernelTest, TexelsOfFourWords) {
     check_words(table(), &KernelTable::fetch_words, 4);
 }
 
+TEST_P(KernelTest, TexelsOfFourTexturesOfWords) {
+    for (int seed = 0; seed < 1000; ++seed) {
+        Random random(static_cast<unsigned>(seed));
+        const std::vector<std::uint8_t> texels = random_words(random);
+        PacketMemory packet;
+        packet.count = random.between(1, kPacketSize);
+        for (std::size_t i = 0; i < kPacketSize; ++i) {
+            packet.texel[i] = FetchQuartetCtx::kTexelBytes * random.below(64);
+            for (std::int16_t* weight : {&packet.weight_x[i], &packet.weight_y[i]})
+                *weight = static_cast<std::int16_t>(random.chance(4) ? 255 * random.below(2)
+                                                                     : random.below(256));
+        }
+        FetchQuartetCtx ctx{texels.data(), {20, -1, 4, 28}, 2112};
+        if (random.chance(2)) ctx.plane[1] = 8;
+        if (random.chance(4)) ctx.plane[random.below(4)] = -1;
+        Written written;
+        for (const int plane : ctx.plane)
+            for (int c = 0; c < 4 && plane >= 0; ++c) written.planes.push_back(plane + c);
+        ASSERT_EQ(stage_difference(table(), &KernelTable::fetch_quartet, packet, ctx, written),
+                  "")
+            << name("fetch_quartet") << ", seed " << seed;
+    }
+}
+
 TEST_P(KernelTest, EveryWordAsHilo) {
     PacketMemory packet;
     for (int first = -32768; first < 32768; first += kPacketSize) {

@@ -123,6 +123,53 @@ TEST_P(KernelTest, QuadsGiveLevelsOfComputedCoordinates) {
     EXPECT_EQ(codes[7], 40);  // 8 to the left; down 7 and 1
 }
 
+/// Three textures of words, 7 x 5 with a border, each with its own texels.
+std::vector<TexturePtr> three_of_words(Filter filter) {
+    std::vector<TexturePtr> textures;
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        Random random(seed);
+        Image16 image(7, 5);
+        for (std::uint16_t& word : image.rgba)
+            word = static_cast<std::uint16_t>(random.below(65536));
+        TextureDescription d{.format = TexelFormat::rgba16, .box_mipmaps = true};
+        d.sampler.filter = filter;
+        d.sampler.wrap_s = Wrap::clamp_to_border;
+        d.sampler.border = {0.25F, 0.5F, 1.0F, 0.0F};
+        textures.push_back(std::make_shared<const Texture>(std::span(&image, 1), d));
+    }
+    return textures;
+}
+
+// The same texels lie elsewhere; one fetch serves all.
+TEST_P(KernelTest, QuartetsAreSampledAsTheirTextures) {
+    for (const Filter filter : {Filter::linear, Filter::linear_mipmap_nearest}) {
+        const std::vector<TexturePtr> singles = three_of_words(filter);
+        const std::vector<TexturePtr> quartet = Texture::quartet(singles);
+        PacketMemory memory;
+        Random random(7);
+        for (int k = 0; k < 2; ++k)
+            for (int i = 0; i < kPacketSize; ++i) memory.attribute(k)[i] = random.real(-1.0F, 2.0F);
+        const auto sampled = [&](const std::vector<TexturePtr>& textures, std::size_t operations) {
+            PacketMemory own = memory;
+            SamplePlan plan{NumberModel::wide, kScratchAttributes, 12};
+            std::vector<InputOp> ops;
+            for (int k = 0; k < 3; ++k)
+                plan_sample(*textures[static_cast<std::size_t>(k)], {0, 1, -1, -1, true},
+                            {4 * k, kValues}, plan, ops);
+            if (filter == Filter::linear) {
+                EXPECT_EQ(ops.size(), operations);
+            }
+            const AttributePlane planes[] = {{1, 0, 0}, {0.2F, 0.1F, 0.3F}, {0.4F, 0.5F, 0.2F}};
+            const burnish::Run run{planes, 0, kPacketSize, 0, 0};
+            Packet packet = own.view();
+            for (const InputOp& op : ops)
+                feed_input(op, NumberModel::wide, table(), {&run, 1, 2}, packet);
+            return std::vector(own.plane(0), own.plane(12));
+        };
+        EXPECT_EQ(sampled(quartet, 2), sampled(singles, 4));
+    }
+}
+
 TEST(Sample, RefusesWhatCannotBe) {
     SamplePlan plan{NumberModel::nine_bit, kScratchAttributes, kScratchPlanes};
     std::vector<InputOp> ops;

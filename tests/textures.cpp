@@ -698,6 +698,38 @@ TEST(Models, TakeFlatMapsOfEveryFormat) {
 
 // ---- every kind, every instruction set
 
+// Every texel of every level, with the neighbours around it, is where it says.
+TEST(Texture, AQuartetHoldsTheTexelsOfItsTextures) {
+    std::vector<TexturePtr> singles;
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        Random random(seed);
+        Image16 image(9, 6);
+        for (std::uint16_t& word : image.rgba)
+            word = static_cast<std::uint16_t>(random.below(65536));
+        TextureDescription d{.format = TexelFormat::rgba16, .box_mipmaps = true};
+        d.sampler.wrap_s = Wrap::clamp_to_border;
+        d.sampler.border = {0.1F, 0.2F, 0.3F, 0.4F};
+        singles.push_back(std::make_shared<const Texture>(std::span(&image, 1), d));
+    }
+    const std::vector<TexturePtr> quartet = Texture::quartet(singles);
+    ASSERT_EQ(quartet.size(), 4U);
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(quartet[k]->place(), static_cast<int>(k));
+        EXPECT_EQ(singles[k]->place(), -1);
+        EXPECT_EQ(quartet[k]->texels(), quartet[0]->texels() + 8 * k);
+        EXPECT_EQ(quartet[k]->pitch() / 64 % 2, 1);
+        const std::span<const TextureLevel> levels = singles[k]->levels();
+        ASSERT_EQ(quartet[k]->levels().size(), levels.size());
+        for (std::size_t level = 0; level < levels.size(); ++level)
+            for (int y = 0; y <= levels[level].height; ++y)
+                for (int x = -1; x <= levels[level].width; ++x)
+                    for (int c = 0; c < 4; ++c)
+                        ASSERT_EQ(quartet[k]->texel(level, 0, x, y, c),
+                                  singles[k]->texel(level, 0, x, y, c))
+                            << k << ", level " << level << ", texel " << x << ' ' << y;
+    }
+}
+
 struct Kind {
     const char* name;
     TextureTarget target;

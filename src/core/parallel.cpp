@@ -44,10 +44,11 @@ class FloatEnvironment {
     std::fenv_t m_saved;
 };
 
-/// What one worker takes from.
+/// A part of the work, for one worker as long as there are others.
 struct alignas(64) Share {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
+    std::atomic<bool> begun{false};
 
     template <class Body>
     void work_off(std::size_t grain, const Body& body) {
@@ -77,8 +78,14 @@ void hand_out(WorkerPool& pool, std::size_t shared, std::size_t count, std::size
     pool.run([&](int worker) {
         const auto take = [&](std::size_t i) { body(i, worker); };
         if (shared > 0) first.work_off(1, take);
+        const auto share = [&](std::size_t k) -> Share& {
+            return shares[(static_cast<std::size_t>(worker) + k) % workers];
+        };
+        // With more workers than cores some come late, and others have their shares by then.
         for (std::size_t k = 0; k < workers; ++k)
-            shares[(static_cast<std::size_t>(worker) + k) % workers].work_off(grain, take);
+            if (!share(k).begun.exchange(true, std::memory_order_relaxed))
+                share(k).work_off(grain, take);
+        for (std::size_t k = 0; k < workers; ++k) share(k).work_off(grain, take);
     });
 }
 

@@ -36,9 +36,13 @@ struct PixelMask {
 /// Visible fragments of a tile, triangle after triangle.
 struct TileFragments {
     std::span<const SetupTriangle* const> triangles;
-    const std::uint16_t* size;    ///< fragments of each triangle; many have none
+    const std::uint32_t* first;   ///< of each triangle's fragments, and the end; many have none
     const std::uint16_t* pixels;  ///< tile indices, no two alike; readable 16 past the last
     int count;
+
+    [[nodiscard]] int size(std::size_t triangle) const {
+        return static_cast<int>(first[triangle + 1] - first[triangle]);
+    }
 };
 
 }  // namespace burnish

@@ -113,6 +113,22 @@ void write_row(const PlanQuantity& q, int c, std::span<const double> values, Num
     }
 }
 
+/// Maps, which are all sampled at the same place, go between each other by fours; a pair would
+/// leave half of each quartet empty.
+void gather_quartets(std::vector<TexturePtr>& units) {
+    std::vector<std::size_t> maps;
+    for (std::size_t i = 0; i < units.size(); ++i)
+        if (units[i]) maps.push_back(i);
+    for (std::span<const std::size_t> rest = maps; rest.size() >= 3;) {
+        const std::span<const std::size_t> four = rest.first(std::min<std::size_t>(rest.size(), 4));
+        std::vector<TexturePtr> textures;
+        for (const std::size_t i : four) textures.push_back(units[i]);
+        textures = Texture::quartet(textures);
+        for (std::size_t k = 0; k < four.size(); ++k) units[four[k]] = std::move(textures[k]);
+        rest = rest.subspan(four.size());
+    }
+}
+
 }  // namespace
 
 glm::dvec3 LayerQuantity::decoded(const glm::dvec3& x) const {
@@ -146,6 +162,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
         baked.units[i] =
             images[i]->texture({.sampler = source.sampler(), .box_mipmaps = source.has_levels()});
     }
+    if (numbers == NumberModel::wide && !source.has_levels()) gather_quartets(baked.units);
     for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
         LayerQuantity d = description(plan.quantities[i], numbers);
         d.texture = baked.units[static_cast<std::size_t>(schedule.quantities[i].unit)];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 namespace burnish {
 
@@ -143,11 +142,11 @@ void TileVisibility::hide_outside() {
 
 TileFragments TileVisibility::collect(const KernelTable& kernels) {
     hide_outside();
-    m_sizes.resize(m_triangles.size());
+    m_first.resize(m_triangles.size() + 2);
     kernels.collect({m_id.data(), m_drawn.data(), static_cast<int>(m_triangles.size()),
-                     m_pixels.data(), m_sizes.data()});
-    const int count = std::accumulate(m_sizes.begin(), m_sizes.end(), 0);
-    return {m_triangles, m_sizes.data(), m_pixels.data(), count};
+                     m_pixels.data(), m_first.data()});
+    return {m_triangles, m_first.data(), m_pixels.data(),
+            static_cast<int>(m_first[m_triangles.size()])};
 }
 
 void TileVisibility::forget() {

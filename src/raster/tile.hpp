@@ -69,7 +69,8 @@ class TileVisibility {
     AlignedVector<std::uint32_t> m_id;          ///< likewise
     std::vector<const SetupTriangle*> m_triangles;  ///< the visibility buffer holds indices
     std::vector<std::uint64_t> m_drawn;             ///< per triangle, as RasterizeCtx has it
-    std::vector<std::uint16_t> m_sizes, m_pixels;   ///< of TileFragments
+    std::vector<std::uint32_t> m_first;             ///< of TileFragments
+    std::vector<std::uint16_t> m_pixels;
 };
 
 }  // namespace burnish

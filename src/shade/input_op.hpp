@@ -27,6 +27,6 @@ using InputOp = std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx,
                              FetchCtx, DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx,
                              ReflectCtx, QuotientCtx, AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx,
                              PlaneFootprintCtx, QuadFootprintCtx, LevelOfDetailCtx, LevelAddressCtx,
-                             FetchHiloCtx, FetchWordsCtx, BlendLevelsCtx, HiloCtx>;
+                             FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx, BlendLevelsCtx, HiloCtx>;
 
 }  // namespace burnish

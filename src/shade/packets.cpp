@@ -35,7 +35,7 @@ void PacketShader::shade(const TileFragments& fragments, std::span<const ShadedD
     const std::uint16_t* pixels = fragments.pixels;
     const std::size_t end = fragments.triangles.size();
     for (std::size_t k = 0; k < end;) {
-        int count = fragments.size[k];
+        int count = fragments.size(k);
         if (count == 0) {
             ++k;
             continue;
@@ -52,9 +52,9 @@ void PacketShader::shade(const TileFragments& fragments, std::span<const ShadedD
         } else {
             if (!m_interpolates && !m_needs_depth) {  // then all triangles of the draw are one
                 for (; k < end; ++k) {
-                    if (fragments.size[k] == 0) continue;
+                    if (fragments.size(k) == 0) continue;
                     if (fragments.triangles[k]->draw != triangle.draw) break;
-                    count += fragments.size[k];
+                    count += fragments.size(k);
                 }
             }
             append(triangle, {pixels, nullptr, count}, kernels);
@@ -116,7 +116,7 @@ void PacketShader::look_ahead(const TileFragments& fragments, std::size_t first)
     make_room();
     const std::uint32_t draw = fragments.triangles[first]->draw;
     for (std::size_t k = first; k < fragments.triangles.size() && !m_planes.full(); ++k) {
-        if (fragments.size[k] == 0) continue;
+        if (fragments.size(k) == 0) continue;
         if (fragments.triangles[k]->draw != draw) return;
         m_planes.push(*fragments.triangles[k]);
     }

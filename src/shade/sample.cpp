@@ -1,6 +1,7 @@
 #include "shade/sample.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <burnish/error.hpp>
 #include <cmath>
 
@@ -59,6 +60,36 @@ void add_texture(FetchCtx& fetch, const Texture& texture, int plane) {
     fetch.plane[fetch.count++] = plane;
 }
 
+/// The fetch of the texture's quartet at the addresses that the packet has now, if there is one.
+FetchQuartetCtx* quartet_in(std::vector<InputOp>& ops, const std::uint8_t* texels) {
+    for (auto op = ops.rbegin(); op != ops.rend(); ++op) {
+        const bool is_address =
+            std::holds_alternative<AddressCtx>(*op) || std::holds_alternative<LevelAddressCtx>(*op);
+        if (is_address) return nullptr;
+        auto* const fetch = std::get_if<FetchQuartetCtx>(&*op);
+        if (fetch != nullptr && fetch->texels == texels) return fetch;
+    }
+    return nullptr;
+}
+
+/// Planes from `plane` on get the texture's texels at the packet's addresses, which are the same as
+/// for all fetches since they were worked out.
+void plan_fetch_of_quartet(const Texture& texture, int plane, std::vector<InputOp>& ops) {
+    const std::uint8_t* const texels =
+        texture.texels() - FetchQuartetCtx::kNextTexture * texture.place();
+    FetchQuartetCtx* fetch = quartet_in(ops, texels);
+    if (fetch == nullptr || fetch->plane[texture.place()] >= 0) {
+        ops.emplace_back(FetchQuartetCtx{texels, {-1, -1, -1, -1}, texture.pitch()});
+        fetch = &std::get<FetchQuartetCtx>(ops.back());
+    }
+    fetch->plane[texture.place()] = plane;
+}
+
+std::uint8_t texel_shift(const Texture& texture) {
+    return static_cast<std::uint8_t>(
+        std::countr_zero(static_cast<unsigned>(texture.texel_bytes())));
+}
+
 void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, SamplePlan& plan,
                 std::vector<InputOp>& ops) {
     const Sampler& sampler = texture.sampler();
@@ -73,11 +104,12 @@ void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, 
         mode_of(sampler.wrap_t),
         static_cast<std::uint8_t>(is_linear_within(sampler.filter) ? 1 : 0),
         static_cast<std::uint8_t>(texture.target() == TextureTarget::rectangle ? 1 : 0),
-        static_cast<std::uint8_t>(has_words(texture.format()) ? 3 : 2)};
+        texel_shift(texture)};
     const bool shares = plan.last && at.interpolated && same(*plan.last, address);
     if (!shares) ops.emplace_back(address);
     plan.last.reset();
     if (at.interpolated) plan.last = address;
+    if (texture.place() >= 0) return plan_fetch_of_quartet(texture, plane, ops);
     if (has_words(texture.format())) {
         ops.emplace_back(FetchWordsCtx{texture.texels(), plane, texture.pitch()});
         return;
@@ -258,6 +290,8 @@ class LevelPlanner {
     void plan_fetch(int out) {
         if (is_hilo(m_texture.format())) {
             m_ops.emplace_back(FetchHiloCtx{m_texture.texels(), out, m_texture.pitch()});
+        } else if (m_texture.place() >= 0) {
+            plan_fetch_of_quartet(m_texture, out, m_ops);
         } else if (has_words(m_texture.format())) {
             m_ops.emplace_back(FetchWordsCtx{m_texture.texels(), out, m_texture.pitch()});
         } else {

@@ -77,6 +77,13 @@ void ExactInputs::feed(const InputOp& op) {
         void operator()(const FetchWordsCtx& c) const {
             to.fetch(texture_at(to.m_shading, c.texels), c.plane, 4);
         }
+        void operator()(const FetchQuartetCtx& c) const {
+            for (int k = 0; k < FetchQuartetCtx::kTextures; ++k) {
+                if (c.plane[k] < 0) continue;
+                const std::uint8_t* const texels = c.texels + FetchQuartetCtx::kNextTexture * k;
+                to.fetch(texture_at(to.m_shading, texels), c.plane[k], 4);
+            }
+        }
         void operator()(const BlendLevelsCtx& c) const {
             const double weight = plane(c.weight) - std::floor(plane(c.weight));
             for (int k = 0; k < c.channels; ++k) {

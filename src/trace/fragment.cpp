@@ -179,6 +179,13 @@ class InputTracer {
             }
         } else if (const auto* words = std::get_if<FetchWordsCtx>(&op)) {
             add_fetch(texture_at(m_shading, words->texels), words->plane, out);
+        } else if (const auto* quartet = std::get_if<FetchQuartetCtx>(&op)) {
+            for (int k = 0; k < FetchQuartetCtx::kTextures; ++k) {
+                if (quartet->plane[k] < 0) continue;
+                const std::uint8_t* const texels =
+                    quartet->texels + FetchQuartetCtx::kNextTexture * k;
+                add_fetch(texture_at(m_shading, texels), quartet->plane[k], out);
+            }
         } else if (const auto* blend = std::get_if<BlendLevelsCtx>(&op)) {
             add_blend(*blend, out);
         }

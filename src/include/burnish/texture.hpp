@@ -208,10 +208,10 @@ class Texture {
     [[nodiscard]] std::int32_t pitch() const noexcept { return m_pitch; }
     /// Bytes from one face or slice to the next.
     [[nodiscard]] std::int32_t layer_bytes() const noexcept { return m_layer_bytes; }
-    /// 4 or 8.
-    [[nodiscard]] int texel_bytes() const noexcept {
-        return m_format == TexelFormat::rgba16 ? 8 : 4;
-    }
+    /// Bytes from one texel to the next: 4 or 8, in a quartet 32.
+    [[nodiscard]] int texel_bytes() const noexcept { return m_texel_bytes; }
+    /// Which of the textures of a quartet this is, 0 .. 3; -1 outside of one.
+    [[nodiscard]] int place() const noexcept { return m_place; }
     /// Texel (0, 0) of level 0, first face or slice.
     [[nodiscard]] const std::uint8_t* texels() const noexcept { return m_texels; }
     /// Channel c of a stored texel as the number of the format: -128 .. 255, of words -32768 ..
@@ -220,7 +220,16 @@ class Texture {
     /// Whether channel c is signed.
     [[nodiscard]] bool is_signed(int c) const noexcept;
 
+    /// One to four rgba16 textures of the same target, sides, levels and sampler, none of them in a
+    /// quartet yet, once more as a quartet: their texels lie between each other in one storage, 8
+    /// bytes of each in turn and 32 for all, so that one row of two texels serves all four.
+    /// Throws Error{limit} for more than 2 GiB.
+    [[nodiscard]] static std::vector<std::shared_ptr<const Texture>> quartet(
+        std::span<const std::shared_ptr<const Texture>> textures);
+
   private:
+    /// A place of a quartet that still lacks its texels.
+    Texture(const Texture& single, int place, std::shared_ptr<std::vector<std::uint8_t>> storage);
     template <class Image>
     void build(std::span<const Image> images, const TextureDescription& description);
 
@@ -230,7 +239,9 @@ class Texture {
     std::vector<TextureLevel> m_levels;
     std::int32_t m_pitch = 0;
     std::int32_t m_layer_bytes = 0;
-    std::vector<std::uint8_t> m_storage;
+    int m_texel_bytes = 4;
+    int m_place = -1;
+    std::shared_ptr<std::vector<std::uint8_t>> m_storage;
     const std::uint8_t* m_texels = nullptr;
 };
 
