@@ -15,8 +15,8 @@ namespace {
 #include "kernels/runs.inl"
 
 #include "kernels/attribute_planes.inl"
-#include "kernels/collect.inl"
 #include "kernels/clear.inl"
+#include "kernels/collect.inl"
 #include "kernels/combine.inl"
 #include "kernels/fetch.inl"
 #include "kernels/final.inl"  // after combine.inl, whose products it uses
