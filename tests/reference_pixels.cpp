@@ -165,10 +165,11 @@ TEST_P(ReferencePixels, FragmentsTriangleByTriangle) {
     id[644] = 0;
     id[5] = 3;  // not of these triangles
     const std::array<std::uint64_t, 3> drawn{1U << 10, ~std::uint64_t{0}, 1U << 10 | 1U << 1};
-    std::array<std::uint16_t, 16> pixels{};
-    std::array<std::uint16_t, 3> size{};
-    table().collect({id.data(), drawn.data(), 3, pixels.data(), size.data()});
-    EXPECT_EQ(size, (std::array<std::uint16_t, 3>{1, 0, 3}));
+    std::vector<std::uint16_t> pixels(kTilePixels + 16);
+    std::array<std::uint32_t, 5> first{};
+    table().collect({id.data(), drawn.data(), 3, pixels.data(), first.data()});
+    EXPECT_EQ(std::vector(first.begin(), first.end() - 1),
+              (std::vector<std::uint32_t>{0, 1, 1, 4}));
     EXPECT_EQ(pixels[0], 644);
     EXPECT_EQ(pixels[1], 64);
     EXPECT_EQ(pixels[2], 643);
