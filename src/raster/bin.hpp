@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "geometry/triangle.hpp"
 #include "kernels/kernel_table.hpp"
 #include "raster/setup.hpp"
@@ -64,7 +65,7 @@ class Chunk {
         TileEntry entry;
     };
 
-    std::vector<SetupTriangle> m_triangles;  ///< the first m_count are in use
+    UnsetVector<SetupTriangle> m_triangles;  ///< the first m_count are in use
     std::vector<std::uint64_t> m_covered;    ///< of each, as SetupCtx has it
     std::size_t m_count = 0;
     std::vector<PlacedEntry> m_unsorted;
