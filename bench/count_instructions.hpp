@@ -10,7 +10,8 @@ namespace burnish {
 /// knows every instruction set that it can run.
 bool can_count_instructions();
 
-/// The kernels of `table`, each of them counted. One table at a time.
+/// The kernels of `table`, each of them counted; of vertices or triangles they get at most 128. One
+/// table at a time.
 KernelTable counted_kernels(const KernelTable& table);
 
 /// Of the last call of a counted kernel, that call included.

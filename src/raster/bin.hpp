@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "geometry/triangle.hpp"
 #include "kernels/kernel_table.hpp"
 #include "raster/setup.hpp"
@@ -64,8 +65,8 @@ class Chunk {
         TileEntry entry;
     };
 
-    std::vector<SetupTriangle> m_triangles;  ///< the first m_count are in use
-    std::vector<SetupPlace> m_places;        ///< of each
+    UnsetVector<SetupTriangle> m_triangles;  ///< the first m_count are in use
+    UnsetVector<SetupPlace> m_places;        ///< of each
     std::size_t m_count = 0;
     PixelRect m_bounds{};
     std::vector<PlacedEntry> m_parts;    ///< of triangles in several tiles, in order
