@@ -194,11 +194,14 @@ TEST_P(KernelTest, QuartetsAreSampledAsTheirTextures) {
             if (filter == Filter::linear) {
                 EXPECT_EQ(ops.size(), operations);
             }
-            const AttributePlane planes[] = {{1, 0, 0}, {0.2F, 0.1F, 0.3F}, {0.4F, 0.5F, 0.2F}};
-            const burnish::Run run{planes, 0, kPacketSize, 0, 0};
+            Equations equations(2);
+            equations.set(0, 0, {1.0F, 0.0F, 0.0F});
+            equations.set(1, 0, {0.2F, 0.1F, 0.3F});
+            equations.set(2, 0, {0.4F, 0.5F, 0.2F});
+            const burnish::Run run{0, kPacketSize, 0, 0};
             Packet packet = own.view();
             for (const InputOp& op : ops)
-                feed_input(op, NumberModel::wide, table(), {&run, 1, 2}, packet);
+                feed_input(op, NumberModel::wide, table(), {&run, 1, 2, equations.data()}, packet);
             return std::vector(own.plane(0), own.plane(12));
         };
         EXPECT_EQ(sampled(quartet, 2), sampled(singles, 4));
