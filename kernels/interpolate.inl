@@ -43,7 +43,8 @@ void make_orthonormal(Vector3& t, Vector3& b, Vector3& n) {
 void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
     const Vector3 light{F32(ctx.light[0]), F32(ctx.light[1]), F32(ctx.light[2])};
     const Vector3 eye{F32(ctx.eye[0]), F32(ctx.eye[1]), F32(ctx.eye[2])};
-    const F32 light_w(ctx.light_w), eye_w(ctx.eye_w), half(0.5F), zero(0.0F);
+    const Vector3 light_direction = normalised(light), eye_direction = normalised(eye);
+    const F32 half(0.5F), zero(0.0F);
     float* const planes = packet.attributes;
     const int first = ctx.frame, n = group_count(packet);
     for (int i = 0; i < n; i += kLanes32) {
@@ -54,11 +55,14 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
         Vector3 t = vector(0), b = vector(1), normal = vector(2);
         const Vector3 position = vector(3);
         if (ctx.orthonormal != 0) make_orthonormal(t, b, normal);
-        const Vector3 l =
-            normalised({light.x - position.x * light_w, light.y - position.y * light_w,
-                        light.z - position.z * light_w});
-        const Vector3 v = normalised(
-            {eye.x - position.x * eye_w, eye.y - position.y * eye_w, eye.z - position.z * eye_w});
+        const auto towards = [&](const Vector3& to, const Vector3& direction, float w_value) {
+            if (w_value == 0.0F) return direction;
+            const F32 w(w_value);
+            return normalised(
+                {to.x - position.x * w, to.y - position.y * w, to.z - position.z * w});
+        };
+        const Vector3 l = towards(light, light_direction, ctx.light_w);
+        const Vector3 v = towards(eye, eye_direction, ctx.eye_w);
         const auto write = [&](int plane, const Vector3& x) {
             if (plane < 0) return;
             float* p = planes + plane * kAttributeStride + i;

@@ -238,12 +238,12 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
         }
         const Vector position = read(ctx.frame + 9);
 
-        const Vector l = normalised({ctx.light[0] - position.x * ctx.light_w,
-                                     ctx.light[1] - position.y * ctx.light_w,
-                                     ctx.light[2] - position.z * ctx.light_w});
-        const Vector v =
-            normalised({ctx.eye[0] - position.x * ctx.eye_w, ctx.eye[1] - position.y * ctx.eye_w,
-                        ctx.eye[2] - position.z * ctx.eye_w});
+        const auto towards = [&](const float(&to)[3], float w) -> Vector {
+            if (w == 0.0F) return {to[0], to[1], to[2]};
+            return {to[0] - position.x * w, to[1] - position.y * w, to[2] - position.z * w};
+        };
+        const Vector l = normalised(towards(ctx.light, ctx.light_w));
+        const Vector v = normalised(towards(ctx.eye, ctx.eye_w));
         const Vector sum{l.x + v.x, l.y + v.y, l.z + v.z};
         const Vector h =
             ctx.raw_half != 0 ? Vector{sum.x * 0.5F, sum.y * 0.5F, sum.z * 0.5F} : normalised(sum);
@@ -709,6 +709,28 @@ void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
                     static_cast<std::int16_t>((x + 32768 + 2) >> 2);
             }
         }
+    }
+}
+
+void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
+    constexpr int kRight = 4, kBelow = 2;  // bytes
+    for (int i = 0; i < packet.count; ++i) {
+        const auto position = [&](const LookUpTableCtx::Axis& axis) {
+            if (axis.plane < 0) return TexelPosition{0, 0};
+            const float number = static_cast<float>(plane(packet, axis.plane)[i]) / 16384.0F;
+            return texel_position((number * axis.scale + axis.offset) / axis.divisor, axis.size,
+                                  AddressMode::clamp_to_edge, true, false);
+        };
+        const TexelPosition s = position(ctx.s), t = position(ctx.t);
+        const auto row = [&](std::ptrdiff_t left) {
+            return (256 - Int{s.weight}) * word_at(ctx.texels, left) +
+                   Int{s.weight} * word_at(ctx.texels, left + kRight);
+        };
+        const std::ptrdiff_t left = std::ptrdiff_t{t.texel} * ctx.pitch + kRight * s.texel;
+        const Int x = shift_half_up(
+            (256 - Int{t.weight}) * row(left) + Int{t.weight} * row(left + kBelow), 16);
+        for (const int out : ctx.out)
+            if (out >= 0) plane(packet, out)[i] = static_cast<std::int16_t>((x + 32768 + 2) >> 2);
     }
 }
 
@@ -1205,6 +1227,7 @@ const KernelTable& table_reference() noexcept {
         .fetch_hilo = fetch_hilo,
         .fetch_words = fetch_words,
         .fetch_quartet = fetch_quartet,
+        .look_up_table = look_up_table,
         .blend_levels = blend_levels,
         .hilo = hilo,
         .portion_nine_bit = portion<NineBit>,

@@ -23,10 +23,11 @@ struct FillCtx {
 };
 
 /// Brings a packet's attributes to its registers, before the program runs or between its stages.
-using InputOp = std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx,
-                             FetchCtx, DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx,
-                             ReflectCtx, QuotientCtx, AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx,
-                             PlaneFootprintCtx, QuadFootprintCtx, LevelOfDetailCtx, LevelAddressCtx,
-                             FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx, BlendLevelsCtx, HiloCtx>;
+using InputOp =
+    std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx,
+                 DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
+                 AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
+                 LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
+                 LookUpTableCtx, BlendLevelsCtx, HiloCtx>;
 
 }  // namespace burnish
