@@ -301,6 +301,9 @@ void add_lighting_and_encode() {
     ctx = {0, {3, 4, 5}, 1.0F, {0, 0, 6}, 12, 15, 18, 21, 22};
     add_packet_stage("lighting/all", &KernelTable::lighting, packet, ctx,
                      {.attributes = {12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22}});
+    ctx = {0, {0.6F, 0, 0.8F}, 0.0F, {0, 0, 6}, 12, 15, -1, -1, -1};
+    add_packet_stage("lighting/half_vector_of_direction", &KernelTable::lighting, packet, ctx,
+                     {.attributes = {12, 13, 14, 15, 16, 17}});
     ctx = {0, {3, 4, 5}, 1.0F, {0, 0, 6}, 12, -1, -1, -1, -1, 1.0F, 0, 1};
     add_packet_stage("lighting/half_vector_orthonormal", &KernelTable::lighting, packet, ctx,
                      {.attributes = {12, 13, 14}});
