@@ -31,13 +31,13 @@ struct AttributesCtx {
 };
 
 /// Light, view and half vectors in the interpolated tangent frame, per fragment.
-/// l = light - position * light_w, v = eye - position * eye_w, light and eye themselves where that
-/// w is 0, both normalised: times 1 / sqrt(dot(x, x)), dot(a, b) = (ax*bx + ay*by) + az*bz. h = l +
-/// v, normalised likewise, or (l + v) * 0.5 if `raw_half`. If `orthonormal` the frame becomes N = N
-/// normalised, T = T - N * dot(N, T) normalised, and, with c = cross(N, T) = (Ny*Tz - Nz*Ty, Nz*Tx
-/// - Nx*Tz, Nx*Ty - Ny*Tx), B = dot(c, B) < 0 ? -c : c. A vector x leaves as three attribute planes
-/// dot(T, x) * 0.5 + 0.5, dot(B, x) * 0.5 + 0.5, dot(N, x) * 0.5 + 0.5; n_dot_l as one plane
-/// max(dot(N, l), 0), h_dot_l as max(dot(h, l), 0).
+/// l = light - position * light_w or, where light_w is 0, light; v = eye - position * eye_w; both
+/// normalised: times 1 / sqrt(dot(x, x)), dot(a, b) = (ax*bx + ay*by) + az*bz. h = l + v,
+/// normalised likewise, or (l + v) * 0.5 if `raw_half`.
+/// If `orthonormal` the frame becomes N = N normalised, T = T - N * dot(N, T) normalised, and, with
+/// c = cross(N, T) = (Ny*Tz - Nz*Ty, Nz*Tx - Nx*Tz, Nx*Ty - Ny*Tx), B = dot(c, B) < 0 ? -c : c.
+/// A vector x leaves as three attribute planes dot(T, x) * 0.5 + 0.5, dot(B, x) * 0.5 + 0.5,
+/// dot(N, x) * 0.5 + 0.5; n_dot_l as one plane max(dot(N, l), 0), h_dot_l as max(dot(h, l), 0).
 struct LightingCtx {
     int frame;       ///< first of 12 attribute planes: T, B, N, position, three components each
     float light[3];  ///< object space; towards the light where light_w is 0, else its position

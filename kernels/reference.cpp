@@ -238,12 +238,14 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
         }
         const Vector position = read(ctx.frame + 9);
 
-        const auto towards = [&](const float(&to)[3], float w) -> Vector {
-            if (w == 0.0F) return {to[0], to[1], to[2]};
-            return {to[0] - position.x * w, to[1] - position.y * w, to[2] - position.z * w};
-        };
-        const Vector l = normalised(towards(ctx.light, ctx.light_w));
-        const Vector v = normalised(towards(ctx.eye, ctx.eye_w));
+        const bool is_direction = ctx.light_w == 0.0F;
+        const Vector l = normalised(is_direction ? Vector{ctx.light[0], ctx.light[1], ctx.light[2]}
+                                                 : Vector{ctx.light[0] - position.x * ctx.light_w,
+                                                          ctx.light[1] - position.y * ctx.light_w,
+                                                          ctx.light[2] - position.z * ctx.light_w});
+        const Vector v =
+            normalised({ctx.eye[0] - position.x * ctx.eye_w, ctx.eye[1] - position.y * ctx.eye_w,
+                        ctx.eye[2] - position.z * ctx.eye_w});
         const Vector sum{l.x + v.x, l.y + v.y, l.z + v.z};
         const Vector h =
             ctx.raw_half != 0 ? Vector{sum.x * 0.5F, sum.y * 0.5F, sum.z * 0.5F} : normalised(sum);
