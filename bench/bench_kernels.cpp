@@ -574,6 +574,9 @@ void add_lighting_and_encode() {
     ctx = {0, {3, 4, 5}, 1.0F, {0, 0, 6}, 12, 15, 18, 21, 22};
     add_packet_stage("lighting/all", &KernelTable::lighting, packet, ctx,
                      {.attributes = {12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22}});
+    ctx = {0, {0.6F, 0, 0.8F}, 0.0F, {0, 0, 6}, 12, 15, -1, -1, -1};
+    add_packet_stage("lighting/half_vector_of_direction", &KernelTable::lighting, packet, ctx,
+                     {.attributes = {12, 13, 14, 15, 16, 17}});
     ctx = {0, {3, 4, 5}, 1.0F, {0, 0, 6}, 12, -1, -1, -1, -1, 1.0F, 0, 1};
     add_packet_stage("lighting/half_vector_orthonormal", &KernelTable::lighting, packet, ctx,
                      {.attributes = {12, 13, 14}});
@@ -694,6 +697,20 @@ void add_levels() {
     for (int plane = 16; plane < 32; ++plane) fetched.planes.push_back(plane);
     add_packet_stage("fetch_quartet", &KernelTable::fetch_quartet, packet,
                      FetchQuartetCtx{texels.data(), {16, 20, 24, 28}, 2112}, fetched);
+    for (const int k : {0, 1})
+        for (int i = 0; i < kPacketSize; ++i)
+            packet.plane(k)[i] = static_cast<std::int16_t>(random.below(16385));
+    LookUpTableCtx table{texels.data(),
+                         {0, 60, 59.0F, 0.5F, 60.0F},
+                         {1, 32, 31.0F, 0.5F, 32.0F},
+                         252,
+                         {20, -1, -1, -1}};
+    add_packet_stage("look_up_table/of_two", &KernelTable::look_up_table, packet, table,
+                     {.planes = {20}});
+    table.s = {0, 1024, 1023.0F, 0.5F, 1024.0F};
+    table.t.plane = -1;
+    add_packet_stage("look_up_table/of_one", &KernelTable::look_up_table, packet, table,
+                     {.planes = {20}});
     add_packet_stage("hilo", &KernelTable::hilo, packet, HiloCtx{5, 7, 0}, {.attributes = {7, 8}});
 }
 

@@ -170,6 +170,24 @@ struct Wide {
     };
 };
 
+/// The wide model where every operand is expanded, or taken as it is: most dot products and most
+/// other products of compiled models.
+struct WideExpanded : Wide {
+    struct Map {
+        Map(std::uint8_t /*mapping*/, std::int16_t /*scale*/) {}
+        I16 operator()(I16 e) const {
+            const I16 shifted = max(e, I16(0)) - I16(kHalf);
+            return ::xsimd::sadd(shifted, shifted);
+        }
+    };
+};
+struct WidePlain : Wide {
+    struct Map {
+        Map(std::uint8_t /*mapping*/, std::int16_t /*scale*/) {}
+        I16 operator()(I16 e) const { return e; }
+    };
+};
+
 std::int16_t* plane_of(const Packet& packet, std::ptrdiff_t plane) {
     return packet.planes + plane * kPacketSize;
 }
@@ -346,6 +364,28 @@ void portion_nine_bit(Packet& packet, const PortionCtx& ctx) noexcept {
         portion<NineBit>(packet, ctx);
     }
 }
+
+/// Whether all operands that count have this mapping.
+bool all_mapped(const PortionCtx& ctx, std::uint8_t mapping) {
+    return ctx.a.mapping == mapping && ctx.b.mapping == mapping &&
+           (ctx.cd == ProductKind::none || (ctx.c.mapping == mapping && ctx.d.mapping == mapping));
+}
+
 void portion_wide(Packet& packet, const PortionCtx& ctx) noexcept {
+    constexpr std::uint8_t kExpand = 2, kSignedIdentity = 6;
+    constexpr ProductKind kDot = ProductKind::dot, kMultiply = ProductKind::multiply,
+                          kNone = ProductKind::none;
+    if (ctx.third != ThirdKind::mux && ctx.ab == kDot && ctx.cd != kMultiply &&
+        all_mapped(ctx, kExpand)) {
+        if (ctx.cd == kNone) return portion<WideExpanded, kDot, kNone>(packet, ctx);
+        if (ctx.third == ThirdKind::none)
+            return portion<WideExpanded, kDot, kDot, ThirdKind::none>(packet, ctx);
+    }
+    if (ctx.third != ThirdKind::mux && ctx.ab == kMultiply && ctx.cd != kDot &&
+        all_mapped(ctx, kSignedIdentity)) {
+        if (ctx.cd == kNone) return portion<WidePlain, kMultiply, kNone>(packet, ctx);
+        if (ctx.third == ThirdKind::sum)
+            return portion<WidePlain, kMultiply, kMultiply, ThirdKind::sum>(packet, ctx);
+    }
     portion<Wide>(packet, ctx);
 }

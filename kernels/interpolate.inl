@@ -37,9 +37,12 @@ void make_orthonormal(Vector3& t, Vector3& b, Vector3& n) {
     b = {c.x * side, c.y * side, c.z * side};
 }
 
-void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
+/// A direction of light is normalised once.
+template <bool IsDirection>
+void lighting(Packet& packet, const LightingCtx& ctx) {
     const Vector3 light{F32(ctx.light[0]), F32(ctx.light[1]), F32(ctx.light[2])};
     const Vector3 eye{F32(ctx.eye[0]), F32(ctx.eye[1]), F32(ctx.eye[2])};
+    const Vector3 direction = normalised(light);
     const F32 light_w(ctx.light_w), eye_w(ctx.eye_w), half(0.5F), zero(0.0F);
     float* const planes = packet.attributes;
     const int first = ctx.frame, n = group_count(packet);
@@ -51,9 +54,11 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
         Vector3 t = vector(0), b = vector(1), normal = vector(2);
         const Vector3 position = vector(3);
         if (ctx.orthonormal != 0) make_orthonormal(t, b, normal);
-        const Vector3 l =
-            normalised({light.x - position.x * light_w, light.y - position.y * light_w,
-                        light.z - position.z * light_w});
+        Vector3 l = direction;
+        if constexpr (!IsDirection) {
+            l = normalised({light.x - position.x * light_w, light.y - position.y * light_w,
+                            light.z - position.z * light_w});
+        }
         const Vector3 v = normalised(
             {eye.x - position.x * eye_w, eye.y - position.y * eye_w, eye.z - position.z * eye_w});
         const auto write = [&](int plane, const Vector3& x) {
@@ -78,6 +83,10 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
             store(planes + ctx.n_dot_l * kAttributeStride + i, max(dot(normal, l), zero));
         }
     }
+}
+
+void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
+    ctx.light_w == 0.0F ? lighting<true>(packet, ctx) : lighting<false>(packet, ctx);
 }
 
 void encode(Packet& packet, const EncodeCtx& ctx, float one_value) {

@@ -29,9 +29,9 @@ struct AttributesCtx {
 };
 
 /// Light, view and half vectors in the interpolated tangent frame, per fragment.
-/// l = light - position * light_w, v = eye - position * eye_w, both normalised: times
-/// 1 / sqrt(dot(x, x)), dot(a, b) = (ax*bx + ay*by) + az*bz. h = l + v, normalised likewise, or
-/// (l + v) * 0.5 if `raw_half`.
+/// l = light - position * light_w or, where light_w is 0, light; v = eye - position * eye_w; both
+/// normalised: times 1 / sqrt(dot(x, x)), dot(a, b) = (ax*bx + ay*by) + az*bz. h = l + v,
+/// normalised likewise, or (l + v) * 0.5 if `raw_half`.
 /// If `orthonormal` the frame becomes N = N normalised, T = T - N * dot(N, T) normalised, and, with
 /// c = cross(N, T) = (Ny*Tz - Nz*Ty, Nz*Tx - Nx*Tz, Nx*Ty - Ny*Tx), B = dot(c, B) < 0 ? -c : c.
 /// A vector x leaves as three attribute planes dot(T, x) * 0.5 + 0.5, dot(B, x) * 0.5 + 0.5,
@@ -123,6 +123,23 @@ struct FetchQuartetCtx {
     const std::uint8_t* texels;
     int plane[kTextures];
     std::int32_t pitch;  ///< bytes
+};
+
+/// A function of one or two wide registers, looked up. A texel is two words, value - 32768: its own
+/// and that of the texel below, 4 bytes from left to right. Of either axis the code v in `plane` is
+/// the coordinate ((v / 16384) * scale + offset) / divisor, with which AddressCtx's clamp_to_edge,
+/// linear, finds texel and weight; without a second axis row 0 and weight 0. Filtered as in
+/// FetchWordsCtx; the code goes to every plane of `out` that is not -1.
+struct LookUpTableCtx {
+    struct Axis {
+        int plane;  ///< -1: there is none
+        std::int32_t size;
+        float scale, offset, divisor;
+    };
+    const std::uint8_t* texels;
+    Axis s, t;
+    std::int32_t pitch;  ///< bytes
+    int out[4];
 };
 
 /// Planes out + c = a + (b - a) * w / 256 of planes a + c and b + c, rounded half up, with the low

@@ -437,9 +437,11 @@ void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
         }
         const Vector position = read(ctx.frame + 9);
 
-        const Vector l = normalised({ctx.light[0] - position.x * ctx.light_w,
-                                     ctx.light[1] - position.y * ctx.light_w,
-                                     ctx.light[2] - position.z * ctx.light_w});
+        const bool is_direction = ctx.light_w == 0.0F;
+        const Vector l = normalised(is_direction ? Vector{ctx.light[0], ctx.light[1], ctx.light[2]}
+                                                 : Vector{ctx.light[0] - position.x * ctx.light_w,
+                                                          ctx.light[1] - position.y * ctx.light_w,
+                                                          ctx.light[2] - position.z * ctx.light_w});
         const Vector v =
             normalised({ctx.eye[0] - position.x * ctx.eye_w, ctx.eye[1] - position.y * ctx.eye_w,
                         ctx.eye[2] - position.z * ctx.eye_w});
@@ -919,6 +921,28 @@ void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
                     static_cast<std::int16_t>((x + 32768 + 2) >> 2);
             }
         }
+    }
+}
+
+void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
+    constexpr int kRight = 4, kBelow = 2;  // bytes
+    for (int i = 0; i < packet.count; ++i) {
+        const auto position = [&](const LookUpTableCtx::Axis& axis) {
+            if (axis.plane < 0) return TexelPosition{0, 0};
+            const float number = static_cast<float>(plane(packet, axis.plane)[i]) / 16384.0F;
+            return texel_position((number * axis.scale + axis.offset) / axis.divisor, axis.size,
+                                  AddressMode::clamp_to_edge, true, false);
+        };
+        const TexelPosition s = position(ctx.s), t = position(ctx.t);
+        const auto row = [&](std::ptrdiff_t left) {
+            return (256 - Int{s.weight}) * word_at(ctx.texels, left) +
+                   Int{s.weight} * word_at(ctx.texels, left + kRight);
+        };
+        const std::ptrdiff_t left = std::ptrdiff_t{t.texel} * ctx.pitch + kRight * s.texel;
+        const Int x = shift_half_up(
+            (256 - Int{t.weight}) * row(left) + Int{t.weight} * row(left + kBelow), 16);
+        for (const int out : ctx.out)
+            if (out >= 0) plane(packet, out)[i] = static_cast<std::int16_t>((x + 32768 + 2) >> 2);
     }
 }
 
@@ -1419,6 +1443,7 @@ const KernelTable& table_reference() noexcept {
         .fetch_hilo = fetch_hilo,
         .fetch_words = fetch_words,
         .fetch_quartet = fetch_quartet,
+        .look_up_table = look_up_table,
         .blend_levels = blend_levels,
         .hilo = hilo,
         .portion_nine_bit = portion<NineBit>,

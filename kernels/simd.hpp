@@ -244,13 +244,15 @@ inline void store_narrowed(std::int16_t* p, I32 first, I32 second) {
                          24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
     _mm512_storeu_si512(p, _mm512_permutex2var_epi16(first, even_words, second));
 }
-/// 64-bit loads of texel pairs: lane k gets the pairs at offset[8 k] (low half) and offset[8 k +
-/// 1].
+/// 64-bit loads of texel pairs: lane k gets the pairs at offset[kApart k] (low half) and
+/// offset[kApart k + 1].
+template <int kApart = 8>
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
-        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
+        const __m128i low =
+            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[kApart * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
-            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
+            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[kApart * k + 1])));
     };
     const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(1), 1);
     const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(2)), pair(3), 1);
@@ -399,6 +401,16 @@ inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p[3]), _mm256_extracti128_si256(high, 1));
 }
 
+/// Dwords 0, 2 of each lane of a, then of b; and dwords 1, 3.
+inline I32 even_dwords(I32 a, I32 b) {
+    return _mm512_castps_si512(
+        _mm512_shuffle_ps(_mm512_castsi512_ps(a), _mm512_castsi512_ps(b), 0x88));
+}
+inline I32 odd_dwords(I32 a, I32 b) {
+    return _mm512_castps_si512(
+        _mm512_shuffle_ps(_mm512_castsi512_ps(a), _mm512_castsi512_ps(b), 0xdd));
+}
+
 #elif defined(__AVX2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -479,11 +491,13 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
     const __m256i pairs = _mm256_permute4x64_epi64(_mm256_packs_epi32(v, v), 0x08);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(pairs));
 }
+template <int kApart = 8>
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
-        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
+        const __m128i low =
+            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[kApart * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
-            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
+            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[kApart * k + 1])));
     };
     return _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(1), 1);
 }
@@ -568,6 +582,15 @@ inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p[1]), _mm256_extracti128_si256(v, 1));
 }
 
+inline I32 even_dwords(I32 a, I32 b) {
+    return _mm256_castps_si256(
+        _mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), 0x88));
+}
+inline I32 odd_dwords(I32 a, I32 b) {
+    return _mm256_castps_si256(
+        _mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), 0xdd));
+}
+
 #elif defined(__SSE4_2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -647,11 +670,13 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(v, v));
 }
+template <int kApart = 8>
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
-        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[8 * k]));
+        const __m128i low =
+            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + offset[kApart * k]));
         return _mm_castpd_si128(_mm_loadh_pd(
-            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[8 * k + 1])));
+            _mm_castsi128_pd(low), reinterpret_cast<const double*>(base + offset[kApart * k + 1])));
     };
     return pair(0);
 }
@@ -721,6 +746,13 @@ inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) 
 }
 inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
     store(p[0], v);
+}
+
+inline I32 even_dwords(I32 a, I32 b) {
+    return _mm_castps_si128(_mm_shuffle_ps(_mm_castsi128_ps(a), _mm_castsi128_ps(b), 0x88));
+}
+inline I32 odd_dwords(I32 a, I32 b) {
+    return _mm_castps_si128(_mm_shuffle_ps(_mm_castsi128_ps(a), _mm_castsi128_ps(b), 0xdd));
 }
 
 #elif defined(__aarch64__)
@@ -817,6 +849,7 @@ inline I32 load_widened(const std::uint16_t* p) {
 inline void store_narrowed(std::int16_t* p, I32 v) {
     vst1_s16(p, vmovn_s32(v));
 }
+template <int kApart = 8>
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     return vreinterpretq_s16_u8(vcombine_u8(vld1_u8(base + offset[0]), vld1_u8(base + offset[1])));
 }
@@ -885,6 +918,13 @@ inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) 
 }
 inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
     store(p[0], v);
+}
+
+inline I32 even_dwords(I32 a, I32 b) {
+    return vuzp1q_s32(a, b);
+}
+inline I32 odd_dwords(I32 a, I32 b) {
+    return vuzp2q_s32(a, b);
 }
 
 #else

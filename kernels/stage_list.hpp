@@ -48,6 +48,7 @@
     X(fetch_hilo, FetchHiloCtx)           \
     X(fetch_words, FetchWordsCtx)         \
     X(fetch_quartet, FetchQuartetCtx)     \
+    X(look_up_table, LookUpTableCtx)      \
     X(blend_levels, BlendLevelsCtx)       \
     X(hilo, HiloCtx)                      \
     X(portion_nine_bit, PortionCtx)       \

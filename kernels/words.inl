@@ -196,6 +196,71 @@ void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
     }
 }
 
+/// From a wide register to texel and weight along an axis of a table. Dividing by a power of two is
+/// multiplying by its inverse, bit for bit.
+struct TableAxis {
+    TableAxis(const Packet& packet, const LookUpTableCtx::Axis& axis)
+        : codes(packet.planes + axis.plane * kPacketSize),
+          size(axis.size),
+          scale(axis.scale),
+          offset(axis.offset),
+          divisor(axis.divisor),
+          inverse(1.0F / axis.divisor),
+          steps(static_cast<float>(256 * axis.size)),
+          has_inverse((axis.size & (axis.size - 1)) == 0 &&
+                      axis.divisor == static_cast<float>(axis.size)) {}
+    AxisAddress operator()(int i) const {
+        const I32 v = load_widened(reinterpret_cast<const std::uint16_t*>(codes) + i);
+        const F32 number = to_float((v << 16) >> 16) * F32(0x1p-14F);
+        const F32 position = number * scale + offset;
+        const F32 at = has_inverse ? position * inverse : divide(position, divisor);
+        return axis_address<AddressMode::clamp_to_edge, true>(at, size, F32(1.0F), steps);
+    }
+    const std::int16_t* codes;
+    std::int32_t size;
+    F32 scale, offset, divisor, inverse, steps;
+    bool has_inverse;
+};
+
+/// Columns first: sums of products are the same either way.
+template <bool TwoAxes>
+void look_up_table(Packet& packet, const LookUpTableCtx& ctx) {
+    const TableAxis axis_s(packet, ctx.s), axis_t(packet, TwoAxes ? ctx.t : ctx.s);
+    const std::uint8_t* const texels = ctx.texels;
+    const I32 pitch(ctx.pitch);
+    std::int16_t* out[4];
+    int outs = 0;
+    for (const int plane : ctx.out)
+        if (plane >= 0) out[outs++] = packet.planes + plane * kPacketSize;
+    const int n = group_count(packet);
+    alignas(64) std::int32_t offset[kPacketSize], across[kPacketSize], down[kPacketSize];
+    for (int i = 0; i < n; i += kLanes32) {
+        const AxisAddress s = axis_s(i);
+        I32 offsets = s.texel << 2;
+        if constexpr (TwoAxes) {
+            const AxisAddress t = axis_t(i);
+            offsets = offsets + t.texel * pitch;
+            store(down + i, (I32(256) - t.weight) | (t.weight << 16));
+        }
+        store(offset + i, offsets);
+        store(across + i, s.weight);
+    }
+    for (int i = 0; i < n; i += kLanes32) {
+        const I16 rows = ::xsimd::bitwise_cast<I16>(TwoAxes ? load(down + i) : I32(256));
+        const I32 first = mul_add_pairs(load_pairs<4>(texels, offset + i), zip_lo32(rows, rows));
+        const I32 second =
+            mul_add_pairs(load_pairs<4>(texels, offset + i + 2), zip_hi32(rows, rows));
+        const I32 left = even_dwords(first, second), right = odd_dwords(first, second);
+        const I32 x = ((left << 8) + (right - left) * load(across + i) + I32(32768)) >> 16;
+        const I32 code = (x + I32(32768 + 2)) >> 2;
+        for (int k = 0; k < outs; ++k) store_narrowed(out[k] + i, code);
+    }
+}
+
+void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
+    ctx.t.plane < 0 ? look_up_table<false>(packet, ctx) : look_up_table<true>(packet, ctx);
+}
+
 void hilo(Packet& packet, const HiloCtx& ctx) noexcept {
     const int n = group_count(packet);
     for (int c = 0; c < 2; ++c) {

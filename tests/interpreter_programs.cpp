@@ -121,6 +121,27 @@ TEST_P(KernelTest, BoundWideProgramsEqualTheInterpreter) {
     check_programs(table(), machine_profile("ideal"), 2500);
 }
 
+// rgb of the first stage is read as blue alone: one product instead of three, of the blue planes.
+TEST(BoundProgram, ComputesTheComponentThatIsRead) {
+    GeneralStage first, second;
+    first.rgb.a = combine::in(Register::col0);
+    first.rgb.b = combine::in(Register::col1);
+    first.rgb.ab_out = Register::spare0;
+    second.alpha.a = second.alpha.b = {Register::spare0, Mapping::signed_identity, Component::blue};
+    second.alpha.ab_out = Register::spare1;
+    CombinerProgram program;
+    program.stages = {first, second};
+    program.final_combiner.d = combine::alpha(combine::raw(Register::spare1));
+    const auto bound_as = [&](bool everything) {
+        return bind(program, machine_profile("ideal"), {}, {.everything = everything});
+    };
+    const BoundProgram bound = bound_as(false);
+    EXPECT_EQ(bound.portions.at(0).components, 1);
+    EXPECT_EQ(bound.portions.at(0).a.plane[0],
+              bound.input[static_cast<std::size_t>(Register::col0)][2]);
+    EXPECT_EQ(bound_as(true).portions.at(0).components, 3);
+}
+
 // --- fetches between stages
 
 /// A small texture of any target and format, or none, by chance.

@@ -282,9 +282,49 @@ TEST_P(KernelTest, TexelsOfFourTexturesOfWords) {
         Written written;
         for (const int plane : ctx.plane)
             for (int c = 0; c < 4 && plane >= 0; ++c) written.planes.push_back(plane + c);
-        ASSERT_EQ(stage_difference(table(), &KernelTable::fetch_quartet, packet, ctx, written),
-                  "")
+        ASSERT_EQ(stage_difference(table(), &KernelTable::fetch_quartet, packet, ctx, written), "")
             << name("fetch_quartet") << ", seed " << seed;
+    }
+}
+
+/// Axes of any size, whose ends are edges or centres of texels.
+LookUpTableCtx::Axis random_axis(Random& random, int plane, int most) {
+    const int size = random.chance(2) ? 1 << random.below(5) : random.between(1, most);
+    const auto n = static_cast<float>(size);
+    switch (random.below(3)) {
+        case 0:
+            return {plane, size, 1.0F, 0.0F, 1.0F};
+        case 1:
+            return {plane, size, n - 1.0F, 0.5F, n};
+        default:
+            return {plane, size, 0.5F * (n - 1.0F), 0.5F * n, n};
+    }
+}
+
+TEST_P(KernelTest, TablesAtAnyRegister) {
+    for (int seed = 0; seed < 1000; ++seed) {
+        Random random(static_cast<unsigned>(seed));
+        const std::vector<std::uint8_t> texels = random_words(random);
+        PacketMemory packet;
+        packet.count = random.between(1, kPacketSize);
+        for (int k = 4; k < 6; ++k)
+            for (int i = 0; i < kPacketSize; ++i)
+                packet.plane(k)[i] = static_cast<std::int16_t>(
+                    random.chance(8) ? random.between(-32768, 32767) : random.between(-16, 16400));
+        LookUpTableCtx ctx{texels.data(),
+                           random_axis(random, 4, 60),
+                           random_axis(random, 5, 31),
+                           252,
+                           {-1, 20, -1, -1}};
+        if (random.chance(2)) ctx.t.plane = -1;
+        Written written{.planes = {20}};
+        for (const int c : {0, 2, 3}) {
+            if (random.chance(2)) continue;
+            ctx.out[c] = 21 + c;
+            written.planes.push_back(21 + c);
+        }
+        ASSERT_EQ(stage_difference(table(), &KernelTable::look_up_table, packet, ctx, written), "")
+            << name("look_up_table") << ", seed " << seed;
     }
 }
 

@@ -208,6 +208,51 @@ TEST_P(KernelTest, QuartetsAreSampledAsTheirTextures) {
     }
 }
 
+// Between stages a table brings what its texture does, to the channels that are wanted.
+TEST_P(KernelTest, TablesAreLookedUpAsTheirTextures) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        const bool one_d = random.chance(3);
+        Image16 image(random.between(1, 40), one_d ? 1 : random.between(1, 20));
+        for (std::size_t i = 0; i < image.rgba.size(); ++i)
+            image.rgba[i] = i % 4 == 0 ? static_cast<std::uint16_t>(random.below(65536))
+                                       : image.rgba[i / 4 * 4];
+        TextureDescription d{.target = one_d ? TextureTarget::one_d : TextureTarget::two_d,
+                             .format = TexelFormat::rgba16};
+        d.sampler.wrap_s = d.sampler.wrap_t = Wrap::clamp_to_edge;
+        constexpr std::array kSpans{TexelSpan::edges, TexelSpan::centers,
+                                    TexelSpan::signed_centers};
+        d.sampler.span_s = random.pick(kSpans);
+        d.sampler.span_t = random.pick(kSpans);
+        const Texture texture(std::span(&image, 1), d);
+        PacketMemory memory;
+        for (int k = 4; k < 6; ++k)
+            for (int i = 0; i < kPacketSize; ++i)
+                memory.plane(k)[i] = static_cast<std::int16_t>(random.between(-17000, 17000));
+        BoundFetch fetch;
+        fetch.target = one_d ? FetchTarget::table_1d : FetchTarget::table_2d;
+        fetch.plane = {4, 5, 0};
+        fetch.live = static_cast<std::uint8_t>(random.between(1, 15));
+        const auto fetched = [&](const Texture& from) {
+            PacketMemory own = memory;
+            SamplePlan plan{NumberModel::wide, kScratchAttributes, 8};
+            FreePlanes free{16, 35};
+            Packet packet = own.view();
+            for (const InputOp& op : plan_stage_fetch(fetch, from, plan, free))
+                feed_input(op, NumberModel::wide, table(), {}, packet);
+            std::vector<std::int16_t> live;
+            for (int c = 0; c < 4; ++c)
+                if ((fetch.live >> c & 1) != 0)
+                    live.insert(live.end(), own.plane(c), own.plane(c + 1));
+            return live;
+        };
+        const TexturePtr lean = Texture::table(texture);
+        EXPECT_EQ(lean->texel(0, 0, texture.width(), 0, 3),
+                  texture.texel(0, 0, texture.width(), 0, 3));
+        ASSERT_EQ(fetched(*lean), fetched(texture)) << seed;
+    }
+}
+
 TEST(Sample, RefusesWhatCannotBe) {
     SamplePlan plan{NumberModel::nine_bit, kScratchAttributes, kScratchPlanes};
     std::vector<InputOp> ops;

@@ -67,7 +67,8 @@ class Binder {
         } else {
             read_final();
         }
-        if (!wanted.everything) drop_unread();
+        m_everything = wanted.everything;
+        if (!m_everything) drop_unread();
         allocate();
         return std::move(m_bound);
     }
@@ -298,6 +299,30 @@ class Binder {
         }
     }
 
+    /// Where a single component of r, g, b is read, it is the only one to compute.
+    static void keep_component(Operation& op) {
+        if (op.components == 1) return;
+        int kept = -1;
+        for (int c = 0; c < 3; ++c) {
+            const auto at = static_cast<std::size_t>(c);
+            const bool is_read = op.ab_out[at] != kNothing || op.cd_out[at] != kNothing ||
+                                 op.third_out[at] != kNothing;
+            if (is_read && kept >= 0) return;
+            if (is_read) kept = c;
+        }
+        const auto at = static_cast<std::size_t>(kept);
+        op.components = 1;
+        for (std::array<Value, 3>* out : {&op.ab_out, &op.cd_out, &op.third_out})
+            out->fill((*out)[at]);
+        const auto take = [&](OperandValues& o, ProductKind product) {
+            if (product == ProductKind::multiply) o.value.fill(o.value[at]);
+        };
+        take(op.a, op.ab);
+        take(op.b, op.ab);
+        take(op.c, op.cd);
+        take(op.d, op.cd);
+    }
+
     void drop_unread() {
         std::vector<bool> live(static_cast<std::size_t>(m_value_count), false);
         const auto mark = [&](Value v) { live[static_cast<std::size_t>(v)] = true; };
@@ -323,6 +348,7 @@ class Binder {
             }
             const bool ab = clean(op->ab_out), cd = clean(op->cd_out), third = clean(op->third_out);
             if (!ab && !cd && !third) continue;
+            keep_component(*op);
             if (!third) {
                 op->third = ThirdKind::none;
                 if (!cd) op->cd = ProductKind::none;
@@ -505,7 +531,10 @@ class Binder {
         }
         fetch.out = take_row();
         for (std::size_t c = 0; c < 4; ++c) {
-            m_plane[static_cast<std::size_t>(op.fetched[c])] = fetch.out + static_cast<int>(c);
+            const auto value = static_cast<std::size_t>(op.fetched[c]);
+            m_plane[value] = fetch.out + static_cast<int>(c);
+            if (m_everything || m_last_use[value] >= 0)
+                fetch.live |= static_cast<std::uint8_t>(1U << c);
         }
         m_bound.fetches.push_back(fetch);
     }
@@ -558,7 +587,7 @@ class Binder {
     std::vector<Operation> m_operations;
     std::array<OperandValues, 7> m_final;  // A .. G
     std::array<OperandValues, 2> m_sum;    // spare0, col1
-    bool m_uses_sum = false, m_uses_product = false;
+    bool m_uses_sum = false, m_uses_product = false, m_everything = false;
     std::array<Portion, 2> m_coding;
     std::optional<Components> m_shown;     ///< values of a register that is the result
     std::vector<int> m_plane, m_last_use;  // by value

@@ -23,7 +23,8 @@ struct BoundFetch {
     FetchTarget target = FetchTarget::table_2d;
     std::array<int, 3> plane{};  ///< the first coordinate_count(target) count
     std::array<bool, 3> expand{};
-    int out = 0;  ///< first of four planes that get the texel
+    int out = 0;            ///< first of four planes that get the texel
+    std::uint8_t live = 0;  ///< bit c: channel c is wanted
 };
 
 /// A combiner program as a list of block operations on register planes.

@@ -78,8 +78,9 @@ TexturePtr table_texture(const PlanTable& table, NumberModel numbers) {
     };
     sampler.span_s = span(0);
     if (height > 1) sampler.span_t = span(1);
-    return image.texture(
+    TexturePtr texture = image.texture(
         {.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d, .sampler = sampler});
+    return numbers == NumberModel::wide ? Texture::table(*texture) : texture;
 }
 
 /// How the codes of a quantity are read.

@@ -35,6 +35,6 @@ using InputOp =
                  DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
                  AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
                  LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
-                 BlendLevelsCtx, HiloCtx, BlendedCtx>;
+                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx>;
 
 }  // namespace burnish

@@ -344,6 +344,12 @@ void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
                     "a texture of format rgba16 on a machine of nine bits, expected one of 8 bits "
                     "or a wide machine");
     }
+    if (texture.is_table()) {
+        throw Error(
+            ErrorCode::bad_program,
+            "a table at the coordinates of a texture unit, expected a fetch between general "
+            "stages");
+    }
     const bool flat =
         texture.target() != TextureTarget::cube && texture.target() != TextureTarget::three_d;
     if (!flat && coordinates.r < 0) {

@@ -408,6 +408,7 @@ void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const 
             fetch.target = is_1d ? FetchTarget::table_1d : FetchTarget::table_2d;
             fetch.plane = {planes.first + 4 * frame + 3, planes.first + 4 * frame, 0};
             fetch.out = to;
+            fetch.live = 15;
             FreePlanes free{kUnitAttributes, planes.scratch + kSamplePlanes};
             const std::vector<InputOp> ops = plan_stage_fetch(fetch, table, sampling, free);
             inputs.insert(inputs.end(), ops.begin(), ops.end());

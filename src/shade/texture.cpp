@@ -285,51 +285,75 @@ Texture::Texture(std::span<const Image16> images, const TextureDescription& desc
 
 namespace {
 
-constexpr int kWordTexel = 8, kQuartetTexel = 32;  // bytes
+constexpr int kWordTexel = 8, kQuartetTexel = 32, kTableTexel = 4;  // bytes
 
-/// From an offset in a texture's storage, rows of `pitch` bytes, to that in a quartet's.
-std::int64_t in_quartet(std::int64_t offset, std::int64_t pitch) {
+/// From an offset in the storage of an rgba16 texture, rows of `pitch` bytes, to that in one of
+/// other texels.
+std::int64_t moved(std::int64_t offset, std::int64_t pitch, int texel_bytes) {
     const std::int64_t columns = pitch / kWordTexel;
-    return offset / pitch * odd_lines(columns * kQuartetTexel) +
-           offset % pitch / kWordTexel * kQuartetTexel;
+    return offset / pitch * odd_lines(columns * texel_bytes) +
+           offset % pitch / kWordTexel * texel_bytes;
 }
 
 }  // namespace
 
+Texture::Texture(const Texture& other, int texel_bytes)
+    : m_target(other.m_target),
+      m_format(other.m_format),
+      m_sampler(other.m_sampler),
+      m_levels(other.m_levels),
+      m_pitch(static_cast<std::int32_t>(moved(other.m_pitch, other.m_pitch, texel_bytes))),
+      m_layer_bytes(
+          static_cast<std::int32_t>(moved(other.m_layer_bytes, other.m_pitch, texel_bytes))),
+      m_texel_bytes(texel_bytes) {}
+
 Texture::Texture(const Texture& single, int place,
                  std::shared_ptr<std::vector<std::uint8_t>> storage)
-    : m_target(single.m_target),
-      m_format(single.m_format),
-      m_sampler(single.m_sampler),
-      m_levels(single.m_levels),
-      m_pitch(static_cast<std::int32_t>(in_quartet(single.m_pitch, single.m_pitch))),
-      m_layer_bytes(static_cast<std::int32_t>(in_quartet(single.m_layer_bytes, single.m_pitch))),
-      m_texel_bytes(kQuartetTexel),
-      m_place(place),
-      m_storage(std::move(storage)) {
+    : Texture(single, kQuartetTexel) {
+    m_place = place;
+    m_storage = std::move(storage);
+    const auto place_of = [&](std::int64_t at) { return moved(at, single.m_pitch, kQuartetTexel); };
     const std::uint8_t* const from = first_line(*single.m_storage);
     std::uint8_t* const to = first_line(*m_storage) + kWordTexel * place;
     const auto last = static_cast<std::int64_t>(single.m_storage->size()) - kLine;
     for (std::int64_t at = 0; at < last; at += kWordTexel)
-        std::copy_n(from + at, kWordTexel, to + in_quartet(at, single.m_pitch));
+        std::copy_n(from + at, kWordTexel, to + place_of(at));
     const std::int64_t first = single.m_texels - from;
-    m_texels = to + in_quartet(first, single.m_pitch);
-    for (TextureLevel& level : m_levels) {
-        level.offset = static_cast<std::int32_t>(in_quartet(first + level.offset, single.m_pitch) -
-                                                 in_quartet(first, single.m_pitch));
+    m_texels = to + place_of(first);
+    for (TextureLevel& level : m_levels)
+        level.offset = static_cast<std::int32_t>(place_of(first + level.offset) - place_of(first));
+}
+
+TexturePtr Texture::table(const Texture& texture) {
+    std::shared_ptr<Texture> table(new Texture(texture, kTableTexel));
+    table->m_is_table = true;
+    table->m_storage = std::make_shared<std::vector<std::uint8_t>>(
+        static_cast<std::size_t>(table->m_layer_bytes) + kLine);
+    std::uint8_t* const to = first_line(*table->m_storage);
+    table->m_texels = to;
+    for (int y = 0; y <= texture.height(); ++y) {
+        for (int x = 0; x <= texture.width(); ++x) {
+            const auto word = [&](int row) {
+                return static_cast<std::int16_t>(texture.texel(0, 0, x, row, 0) - 32768);
+            };
+            const std::int16_t column[2] = {word(y), word(std::min(y + 1, texture.height()))};
+            std::memcpy(to + y * table->m_pitch + x * kTableTexel, column, sizeof column);
+        }
     }
+    return table;
 }
 
 std::vector<TexturePtr> Texture::quartet(std::span<const TexturePtr> textures) {
     const Texture& front = *textures.front();
-    const std::int64_t bytes =
-        in_quartet(static_cast<std::int64_t>(front.m_storage->size()) - kLine, front.m_pitch);
+    const std::int64_t bytes = moved(static_cast<std::int64_t>(front.m_storage->size()) - kLine,
+                                     front.m_pitch, kQuartetTexel);
     if (bytes > kMaxBytes) {
         throw Error(ErrorCode::limit, fmt::format("quartet of textures of {} bytes, expected at "
                                                   "most {}",
                                                   bytes, kMaxBytes));
     }
-    const auto storage = std::make_shared<std::vector<std::uint8_t>>(bytes + kLine);
+    const auto storage =
+        std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(bytes + kLine));
     std::vector<TexturePtr> quartet;
     for (const TexturePtr& texture : textures) {
         const auto place = static_cast<int>(quartet.size());
@@ -350,6 +374,7 @@ int Texture::texel(std::size_t level, int layer, int x, int y, int c) const noex
         const int t = at[c] ^ kByteMask;
         return is_signed(c) ? t - 128 : t;
     }
+    if (m_is_table) c = 0;
     std::int16_t word;
     std::memcpy(&word, at + 2 * c, sizeof word);
     return is_signed(c) ? word : word + 32768;

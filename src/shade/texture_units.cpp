@@ -494,12 +494,34 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
 namespace {
 
 /// Brings a table's coordinate from its domain to 0 .. 1, where the centres of `size` texels lie.
-void add_span(TexelSpan span, int size, int attribute, std::vector<InputOp>& ops) {
-    if (span == TexelSpan::edges) return;
+AffineCtx to_edges(TexelSpan span, int size, int attribute) {
+    if (span == TexelSpan::edges) return {attribute, attribute, 1.0F, 0.0F, 1.0F};
     const auto n = static_cast<float>(size);
     const bool is_signed = span == TexelSpan::signed_centers;
     const float scale = is_signed ? 0.5F * (n - 1.0F) : n - 1.0F;
-    ops.emplace_back(AffineCtx{attribute, attribute, scale, is_signed ? 0.5F * n : 0.5F, n});
+    return {attribute, attribute, scale, is_signed ? 0.5F * n : 0.5F, n};
+}
+
+void add_span(TexelSpan span, int size, int attribute, std::vector<InputOp>& ops) {
+    if (span != TexelSpan::edges) ops.emplace_back(to_edges(span, size, attribute));
+}
+
+LookUpTableCtx::Axis table_axis(TexelSpan span, int size, int plane) {
+    const AffineCtx affine = to_edges(span, size, -1);
+    return {plane, size, affine.scale, affine.offset, affine.divisor};
+}
+
+LookUpTableCtx look_up(const BoundFetch& fetch, const Texture& table) {
+    const Sampler& sampler = table.sampler();
+    LookUpTableCtx ctx{table.texels(),
+                       table_axis(sampler.span_s, table.width(), fetch.plane[0]),
+                       table_axis(sampler.span_t, table.height(), -1),
+                       table.pitch(),
+                       {-1, -1, -1, -1}};
+    if (table.target() == TextureTarget::two_d) ctx.t.plane = fetch.plane[1];
+    for (int c = 0; c < 4; ++c)
+        if ((fetch.live >> c & 1) != 0) ctx.out[c] = fetch.out + c;
+    return ctx;
 }
 
 }  // namespace
@@ -513,6 +535,15 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
                                 texture_operation_name(operation_of(fetch.target)),
                                 texture_operation_name(equivalent)));
     std::vector<InputOp> ops;
+    if (texture.is_table()) {
+        if (fetch.expand[0] || fetch.expand[1] || sampling.numbers == NumberModel::nine_bit)
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("the table of tex{} with coordinates that expand or of nine "
+                                    "bits, expected wide registers as they are",
+                                    fetch.unit));
+        ops.emplace_back(look_up(fetch, texture));
+        return ops;
+    }
     const TexelClass format = format_class(texture.format());
     if (!has_color(format)) {
         for (int c = 0; c < 4; ++c) ops.emplace_back(ClearCtx{fetch.out + c});

@@ -84,6 +84,9 @@ void ExactInputs::feed(const InputOp& op) {
                 to.fetch(texture_at(to.m_shading, texels), c.plane[k], 4);
             }
         }
+        void operator()(const LookUpTableCtx& c) const {
+            to.look_up(c, plane(c.s.plane), c.t.plane < 0 ? 0.0 : plane(c.t.plane));
+        }
         void operator()(const BlendLevelsCtx& c) const {
             const double weight = plane(c.weight) - std::floor(plane(c.weight));
             for (int k = 0; k < c.channels; ++k) {
@@ -348,6 +351,20 @@ void ExactInputs::fetch(const Texture& texture, int plane, int channels) {
             mix(mix(texel(0, 0), texel(1, 0), m_column.weight),
                 mix(texel(0, 1), texel(1, 1), m_column.weight), m_row.weight);
     }
+}
+
+void ExactInputs::look_up(const LookUpTableCtx& ctx, double s, double t) {
+    const auto along = [](const LookUpTableCtx::Axis& axis, double at) {
+        const double scaled =
+            at * static_cast<double>(axis.scale) + static_cast<double>(axis.offset);
+        return position(scaled / static_cast<double>(axis.divisor), axis.size,
+                        AddressMode::clamp_to_edge, true, false);
+    };
+    m_level = m_layer = 0;
+    m_column = along(ctx.s, s);
+    m_row = ctx.t.plane < 0 ? Position{} : along(ctx.t, t);
+    for (const int out : ctx.out)
+        if (out >= 0) fetch(texture_at(m_shading, ctx.texels), out, 1);
 }
 
 const Texture& texture_at(const Shading& shading, const std::uint8_t* texels) {

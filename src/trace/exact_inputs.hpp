@@ -21,6 +21,8 @@ class ExactInputs {
     /// Operations come in the order of shading.inputs. What a quad covers, QuadFootprintCtx, is for
     /// the caller to set.
     void feed(const InputOp& op);
+    /// A table at coordinates that are registers' numbers.
+    void look_up(const LookUpTableCtx& ctx, double s, double t);
 
     [[nodiscard]] double attribute(int k) const {
         return m_attributes[static_cast<std::size_t>(k)];

@@ -329,9 +329,17 @@ class StageFetches {
             Codes codes{};
             for (std::size_t c = 0; c < 4; ++c)
                 codes[c] = lone.plane(program().fetches[i].out + static_cast<int>(c));
+            if (const auto* table = std::get_if<LookUpTableCtx>(&fetch.ops.back()))
+                codes.fill(lone.plane(any_output(*table)));
             m_codes.push_back(codes);
             m_footprints.push_back(footprint);
         }
+    }
+
+    /// A plane with the value of all channels, of which only those that are read have one.
+    static int any_output(const LookUpTableCtx& table) {
+        return *std::find_if(std::begin(table.out), std::end(table.out),
+                             [](int plane) { return plane >= 0; });
     }
 
     Reals fetch_exactly(std::size_t number, const std::array<double, 3>& at) {
@@ -341,6 +349,11 @@ class StageFetches {
                 m_exact.set_attribute(decode->attribute, at.at(coordinate++));
             } else if (const auto* quad = std::get_if<QuadFootprintCtx>(&op)) {
                 m_exact.set_attribute(quad->footprint.out, m_footprints.at(number));
+            } else if (const auto* table = std::get_if<LookUpTableCtx>(&op)) {
+                m_exact.look_up(*table, at[0], at[1]);
+                Reals reals{};
+                reals.fill(m_exact.plane(any_output(*table)));
+                return reals;
             } else {
                 m_exact.feed(op);
             }

@@ -209,10 +209,11 @@ class Texture {
     [[nodiscard]] std::int32_t pitch() const noexcept { return m_pitch; }
     /// Bytes from one face or slice to the next.
     [[nodiscard]] std::int32_t layer_bytes() const noexcept { return m_layer_bytes; }
-    /// Bytes from one texel to the next: 4 or 8, in a quartet 32.
+    /// Bytes from one texel to the next: 4 or 8, in a quartet 32, of a table 4.
     [[nodiscard]] int texel_bytes() const noexcept { return m_texel_bytes; }
     /// Which of the textures of a quartet this is, 0 .. 3; -1 outside of one.
     [[nodiscard]] int place() const noexcept { return m_place; }
+    [[nodiscard]] bool is_table() const noexcept { return m_is_table; }
     /// Texel (0, 0) of level 0, first face or slice.
     [[nodiscard]] const std::uint8_t* texels() const noexcept { return m_texels; }
     /// Channel c of a stored texel as the number of the format: -128 .. 255, of words -32768 ..
@@ -228,7 +229,14 @@ class Texture {
     [[nodiscard]] static std::vector<std::shared_ptr<const Texture>> quartet(
         std::span<const std::shared_ptr<const Texture>> textures);
 
+    /// An rgba16 texture of one or two dimensions without levels, whose channels are all the same,
+    /// clamped to its edges and linear, once more for fetches between general stages alone: a texel
+    /// is its word and that of the texel below, so that 8 bytes are all that a fragment needs.
+    [[nodiscard]] static std::shared_ptr<const Texture> table(const Texture& texture);
+
   private:
+    /// One that still lacks its texels.
+    Texture(const Texture& other, int texel_bytes);
     /// A place of a quartet that still lacks its texels.
     Texture(const Texture& single, int place, std::shared_ptr<std::vector<std::uint8_t>> storage);
     template <class Image>
@@ -242,6 +250,7 @@ class Texture {
     std::int32_t m_layer_bytes = 0;
     int m_texel_bytes = 4;
     int m_place = -1;
+    bool m_is_table = false;
     std::shared_ptr<std::vector<std::uint8_t>> m_storage;
     const std::uint8_t* m_texels = nullptr;
 };
