@@ -331,8 +331,9 @@ TEST_P(ReferencePixels, AddressesInARowOfFourTexels) {
 
 TEST_P(ReferencePixels, FilterRoundsAcrossThenDown) {
     // Channels: corners (0, 1; 0, 0), (0, 255; 0, 255), white, and 128 everywhere; all weights 1/2.
-    const std::array<std::uint8_t, 16> texels{0, 0, 255, 128, 1, 255, 255, 128,
-                                              0, 0, 255, 128, 0, 255, 255, 128};
+    std::array<std::uint8_t, 16> texels{0, 0, 255, 128, 1, 255, 255, 128,
+                                        0, 0, 255, 128, 0, 255, 255, 128};
+    for (std::uint8_t& t : texels) t = static_cast<std::uint8_t>(127 - t);  // as FetchCtx has them
     PacketMemory packet;
     std::fill(packet.texel.begin(), packet.texel.end(), 0);
     std::fill(packet.weight_x.begin(), packet.weight_x.end(), std::int16_t{128});

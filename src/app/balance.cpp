@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -57,7 +56,10 @@ SimulatedFrame simulate(const Balance& balance, double alone_ms, double divided_
 /// Lower ends of the classes of a value: 0, then the powers of `base`.
 double class_of(double value, double base) {
     if (value <= 0.0) return 0.0;
-    return std::pow(base, std::floor(std::log(value) / std::log(base) + 1e-9));
+    double lower = 1.0;
+    while (lower > value) lower /= base;
+    while (lower * base <= value) lower *= base;
+    return lower;
 }
 
 /// Tiles and their time by classes of `value`.

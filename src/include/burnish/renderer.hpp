@@ -99,8 +99,8 @@ struct FrameStats {
     std::uint64_t nonfinite_triangles = 0;   ///< dropped for a NaN or infinite clip position
     std::uint64_t degenerate_triangles = 0;  ///< zero area after snapping
     std::uint64_t clipped_triangles = 0;     ///< cut by the near, far or guard band planes
-    std::uint64_t binned_triangles = 0;  ///< left of them, or of their parts, for the tiles
-    std::uint64_t flushes = 0;  ///< times the memory cap was met
+    std::uint64_t binned_triangles = 0;      ///< left of them, or of their parts, for the tiles
+    std::uint64_t flushes = 0;               ///< times the memory cap was met
     std::uint64_t shaded_pixels = 0;
     double geometry_ms = 0.0;  ///< vertices, setup, bins
     double tiles_ms = 0.0;     ///< coverage, shading, resolve

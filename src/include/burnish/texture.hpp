@@ -172,9 +172,9 @@ struct TextureLevel {
 /// clamp_to_border border texels lie on all sides. The row pitch is an odd number of cache lines,
 /// so that the rows of a block spread over the sets.
 ///
-/// A texel is four signed bytes r, g, b, a, of unsigned ones 127 - value, of signed ones -1 - value:
-/// what makes the filter short. Of hilo formats it is two words, of rgba16 four. Words are signed:
-/// unsigned ones minus 32768.
+/// A texel is four signed bytes r, g, b, a, of unsigned ones 127 - value, of signed ones -1 -
+/// value: what makes the filter short. Of hilo formats it is two words, of rgba16 four. Words are
+/// signed: unsigned ones minus 32768.
 class Texture {
   public:
     /// Largest width, height and depth, and the levels that they can have.
