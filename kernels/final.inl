@@ -88,7 +88,7 @@ struct FinalWide {
 
 /// One component of the pseudo registers.
 struct PseudoRegisters {
-    alignas(64) std::int16_t sum[kPacketSize], product[kPacketSize];
+    alignas(64) std::int16_t sum[kPacketSize], product[kPacketSize], zero[kPacketSize];
 };
 
 /// One component of an input, with its mapping.
@@ -96,16 +96,37 @@ template <class Model>
 struct FinalSource {
     FinalSource(const Packet& packet, const Operand& operand, int component,
                 const PseudoRegisters& pseudo)
-        : map(operand.mapping == 1, operand.plane[0] == FinalCtx::kColorSum) {
-        plane = operand.plane[0] == FinalCtx::kColorSum ? pseudo.sum
-                : operand.plane[0] == FinalCtx::kFinalProduct
-                    ? pseudo.product
-                    : packet.planes + operand.plane[component] * kPacketSize;
+        : map(operand.mapping == 1 && operand.plane[0] != FinalCtx::kZero,
+              operand.plane[0] == FinalCtx::kColorSum) {
+        switch (operand.plane[0]) {
+            case FinalCtx::kColorSum:
+                plane = pseudo.sum;
+                break;
+            case FinalCtx::kFinalProduct:
+                plane = pseudo.product;
+                break;
+            case FinalCtx::kZero:
+                plane = pseudo.zero;
+                break;
+            default:
+                plane = packet.planes + operand.plane[component] * kPacketSize;
+        }
     }
     I16 operator()(int i) const { return map(load(plane + i)); }
     const std::int16_t* plane;
     typename Model::Map map;
 };
+
+/// What is left of A * B + (1 - A) * C + D where operands are 0; products that are not there round
+/// to 0 in every way.
+enum class FinalShape : std::uint8_t { whole, product, last };
+
+inline FinalShape final_shape(const FinalCtx& ctx) {
+    const auto is_zero = [](const Operand& o) { return o.plane[0] == FinalCtx::kZero; };
+    if (ctx.uses_color_sum != 0 || !is_zero(ctx.c)) return FinalShape::whole;
+    if (is_zero(ctx.b)) return FinalShape::last;
+    return is_zero(ctx.d) ? FinalShape::product : FinalShape::whole;
+}
 
 template <class Model>
 void final_combiner(Packet& packet, const FinalCtx& ctx) {
@@ -113,6 +134,8 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
     PseudoRegisters pseudo;
     const I16 one(Model::kOne);
     const int n = group_count(packet);
+    const FinalShape shape = final_shape(ctx);
+    for (int i = 0; i < n; i += kLanes) store(pseudo.zero + i, I16(0));
     for (int k = 0; k < 3; ++k) {
         if (ctx.uses_color_sum != 0) {
             const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
@@ -135,8 +158,17 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
         const Source a(packet, ctx.a, k, pseudo), b(packet, ctx.b, k, pseudo),
             c(packet, ctx.c, k, pseudo), d(packet, ctx.d, k, pseudo);
         std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
-        for (int i = 0; i < n; i += kLanes) {
-            store(out + i, min(Model::lerp(a(i), b(i), c(i), d(i)), one));
+        switch (shape) {
+            case FinalShape::product:
+                for (int i = 0; i < n; i += kLanes) store(out + i, Model::product(a(i), b(i)));
+                break;
+            case FinalShape::last:
+                for (int i = 0; i < n; i += kLanes) store(out + i, min(d(i), one));
+                break;
+            case FinalShape::whole:
+                for (int i = 0; i < n; i += kLanes) {
+                    store(out + i, min(Model::lerp(a(i), b(i), c(i), d(i)), one));
+                }
         }
     }
     const Source g(packet, ctx.g, 0, pseudo);

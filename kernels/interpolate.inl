@@ -8,7 +8,8 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
             const int k = 3 * equation;
             return (row(k) + row(k + 1) * pixel.x) + row(k + 2) * pixel.y;
         };
-        const F32 w = divide(F32(1.0F), at_pixel(0));
+        const float level_w = row.level_w();
+        const F32 w = level_w != 0.0F ? F32(level_w) : divide(F32(1.0F), at_pixel(0));
         float* const out = packet.attributes + first;
         for (int k = 0; k < attribute_count; ++k) {
             store(out + k * kAttributeStride, at_pixel(k + 1) * w);

@@ -279,10 +279,11 @@ struct PortionCtx {
 
 /// The final combiner: planes out[0 .. 2] = min(1, A*B + (1 - A)*C + D), out[3] = G.
 /// Mappings 0 and 1 only. An operand with plane[0] == kColorSum or kFinalProduct reads that
-/// pseudo-register instead.
+/// pseudo-register instead; B, C or D with kZero is 0, whatever its mapping.
 struct FinalCtx {
     static constexpr std::int16_t kColorSum = -1;
     static constexpr std::int16_t kFinalProduct = -2;
+    static constexpr std::int16_t kZero = -3;
     Operand a, b, c, d, e, f;
     Operand g;               ///< plane[0]
     std::int16_t spare0[3];  ///< planes that the colour sum adds

@@ -1179,6 +1179,7 @@ Int final_register(const Packet& packet, const Operand& operand, int c, int i) {
 
 template <class Model>
 Int final_input(const Packet& packet, const FinalCtx& ctx, const Operand& operand, int c, int i) {
+    if (operand.plane[0] == FinalCtx::kZero) return 0;
     if (operand.plane[0] == FinalCtx::kColorSum) {
         const auto term = [&](const std::int16_t* planes, std::uint8_t complement) {
             const Int x = Model::final_identity(plane(packet, planes[c])[i]);

@@ -1,3 +1,20 @@
+/// Rows of the equations at fragments of one run.
+struct RowsOfOneRun {
+    F32 operator()(int k) const { return F32(at(k)); }
+    float at(int k) const { return equations[k * kAttributeStride]; }
+    /// 1 / w, where it is the same everywhere, as in whatever faces the viewer; else 0.
+    float level_w() const { return at(1) == 0.0F && at(2) == 0.0F ? 1.0F / (at(0) + 0.0F) : 0.0F; }
+    const float* equations;
+};
+
+/// The same where runs change between the fragments of a vector.
+struct RowsOfRuns {
+    F32 operator()(int k) const { return spread(load(equations + k * kAttributeStride)); }
+    static float level_w() { return 0.0F; }
+    const float* equations;
+    const LaneOrder& spread;
+};
+
 /// What the runs of a packet say, brought to its fragments.
 class FragmentRuns {
   public:
@@ -25,14 +42,14 @@ class FragmentRuns {
             const std::uint16_t* const pixels = m_packet.pixels + i;
             if (run == m_run_of[i + kLanes32 - 1]) {
                 f(i, positions(pixels, I32(m_offset_x[run]), I32(m_offset_y[run])),
-                  [&](int k) { return F32(equations[k * kAttributeStride]); });
+                  RowsOfOneRun{equations});
                 continue;
             }
             // Fragments of a vector belong to runs that follow each other, no more than its lanes.
             const auto* const numbers = reinterpret_cast<const std::uint16_t*>(m_run_of + i);
             const LaneOrder spread(load_widened(numbers) - I32(run));
             f(i, positions(pixels, spread(load(m_offset_x + run)), spread(load(m_offset_y + run))),
-              [&](int k) { return spread(load(equations + k * kAttributeStride)); });
+              RowsOfRuns{equations, spread});
         }
     }
 

@@ -44,6 +44,12 @@ struct ChunkRange {
     std::size_t first, last;
 };
 
+/// Triangles of one chunk in a tile.
+struct TileList {
+    const Chunk* chunk;
+    std::span<const TileEntry> entries;
+};
+
 /// What one worker needs to turn bins into pixels.
 // Lines come in pairs: what two workers write all the time must not share one.
 struct alignas(128) Worker {
@@ -51,6 +57,7 @@ struct alignas(128) Worker {
     TileVisibility visibility;
     PacketShader shader;
     TileImage image;
+    std::vector<TileList> lists;  ///< of the tile, in order
     bool has_background = false;  ///< pixels that no fragment wrote are what they should be
     std::uint64_t tiles = 0;
     StageClock* clock = nullptr;  ///< while the frame is accounted for
@@ -97,7 +104,7 @@ struct Renderer::State {
     void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
-    std::size_t first_chunk(std::int32_t x, std::int32_t y) const;
+    std::size_t first_list(std::span<const TileList> lists, std::int32_t x, std::int32_t y) const;
     void shade_visible(Worker& worker);
     void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const TileEntry> entries);
     float* saved_depth(std::int32_t x, std::int32_t y);
@@ -377,10 +384,13 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
 void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                                 bool first_round, bool last_round) {
     TileVisibility& visibility = worker.visibility;
-    const std::span binned(chunks.data(), chunk_count);
-    const bool empty = std::all_of(binned.begin(), binned.end(),
-                                   [&](const auto& chunk) { return chunk->tile(x, y).empty(); });
-    if (empty && first_round && last_round) {
+    std::vector<TileList>& lists = worker.lists;
+    lists.clear();
+    for (std::size_t i = 0; i < chunk_count; ++i) {
+        const std::span<const TileEntry> entries = chunks[i]->tile(x, y);
+        if (!entries.empty()) lists.push_back({chunks[i].get(), entries});
+    }
+    if (lists.empty() && first_round && last_round) {
         const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
         return worker.image.resolve_empty(target, x * kTileSize, y * kTileSize);
     }
@@ -394,9 +404,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
         worker.has_background = true;
     }
     worker.shader.begin({visibility.left(), visibility.top(), output_of(worker)});
-    for (const auto& chunk : binned.subspan(first_chunk(x, y))) {
-        const std::span<const TileEntry> entries = chunk->tile(x, y);
-        if (entries.empty()) continue;
+    for (const auto& [chunk, entries] : std::span(lists).subspan(first_list(lists, x, y))) {
         if (draws[chunk->triangles()[entries.front().triangle].draw]->ordered) {
             shade_visible(worker);
             visibility.forget();
@@ -420,11 +428,12 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     }
 }
 
-/// The chunk from which on a tile has to be drawn: a triangle of its covers all that was before.
-std::size_t Renderer::State::first_chunk(std::int32_t x, std::int32_t y) const {
-    for (std::size_t i = chunk_count; i-- > 1;) {
-        for (const TileEntry& entry : chunks[i]->tile(x, y)) {
-            const SetupTriangle& triangle = chunks[i]->triangles()[entry.triangle];
+/// The list from which on a tile has to be drawn: a triangle of its covers all that was before.
+std::size_t Renderer::State::first_list(std::span<const TileList> lists, std::int32_t x,
+                                        std::int32_t y) const {
+    for (std::size_t i = lists.size(); i-- > 1;) {
+        for (const TileEntry& entry : lists[i].entries) {
+            const SetupTriangle& triangle = lists[i].chunk->triangles()[entry.triangle];
             if (!overwrites[triangle.draw]) break;
             if (covers_tile(triangle, x, y, size)) return i;
         }

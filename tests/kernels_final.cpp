@@ -174,6 +174,8 @@ FinalCtx random_final(Random& random) {
         if (random.chance(3)) read_instead(ctx, *o, FinalCtx::kColorSum);
     for (Operand* o : {&ctx.a, &ctx.b, &ctx.c, &ctx.d})
         if (random.chance(4)) read_instead(ctx, *o, FinalCtx::kFinalProduct);
+    for (Operand* o : {&ctx.b, &ctx.c, &ctx.d})
+        if (random.chance(3)) read_instead(ctx, *o, FinalCtx::kZero);
     const auto reads = [&](std::int16_t pseudo) {
         for (const Operand* o : {&ctx.a, &ctx.b, &ctx.c, &ctx.d})
             if (o->plane[0] == pseudo) return true;

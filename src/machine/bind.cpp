@@ -481,6 +481,13 @@ class Binder {
         return result;
     }
 
+    /// Of the final combiner.
+    bool is_zero(const OperandValues& o) {
+        const Value zero = constant(0);
+        return o.mapping == Mapping::unsigned_identity &&
+               std::all_of(o.value.begin(), o.value.end(), [&](Value v) { return v == zero; });
+    }
+
     void place_outputs(const std::array<Value, 3>& out, std::int16_t (&planes)[3]) {
         for (std::size_t c = 0; c < 3; ++c) {
             int plane = m_trash;
@@ -546,6 +553,8 @@ class Binder {
         Operand* operands[6] = {&ctx.a, &ctx.b, &ctx.c, &ctx.d, &ctx.e, &ctx.f};
         for (std::size_t i = 0; i < 6; ++i) {
             *operands[i] = operand(m_final[i]);
+            const bool may_be_zero = i >= 1 && i <= 3;  // B, C, D
+            if (may_be_zero && is_zero(m_final[i])) operands[i]->plane[0] = FinalCtx::kZero;
             if (inputs[i]->reg == Register::color_sum) operands[i]->plane[0] = FinalCtx::kColorSum;
             if (inputs[i]->reg == Register::final_product) {
                 operands[i]->plane[0] = FinalCtx::kFinalProduct;
