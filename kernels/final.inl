@@ -121,8 +121,10 @@ struct FinalSource {
 /// to 0 in every way.
 enum class FinalShape : std::uint8_t { whole, product, last };
 
+inline bool is_zero(const Operand& o) {
+    return o.plane[0] == FinalCtx::kZero;
+}
 inline FinalShape final_shape(const FinalCtx& ctx) {
-    const auto is_zero = [](const Operand& o) { return o.plane[0] == FinalCtx::kZero; };
     if (ctx.uses_color_sum != 0 || !is_zero(ctx.c)) return FinalShape::whole;
     if (is_zero(ctx.b)) return FinalShape::last;
     return is_zero(ctx.d) ? FinalShape::product : FinalShape::whole;
@@ -135,7 +137,9 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
     const I16 one(Model::kOne);
     const int n = group_count(packet);
     const FinalShape shape = final_shape(ctx);
-    for (int i = 0; i < n; i += kLanes) store(pseudo.zero + i, I16(0));
+    const bool whole = shape == FinalShape::whole;
+    if ((whole && (is_zero(ctx.b) || is_zero(ctx.c))) || is_zero(ctx.d))
+        for (int i = 0; i < n; i += kLanes) store(pseudo.zero + i, I16(0));
     for (int k = 0; k < 3; ++k) {
         if (ctx.uses_color_sum != 0) {
             const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
