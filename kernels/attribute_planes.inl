@@ -30,7 +30,8 @@ struct PlaneTriangles {
     }
     /// Columns of numbers 4 part .. 4 part + 3 of each.
     [[nodiscard]] Columns numbers(int part) const {
-        return load_columns([&](int k) { return lane[k]->x + 4 * part; });
+        return load_columns(
+            [&](int k) { return reinterpret_cast<const std::int32_t*>(lane[k]) + 4 * part; });
     }
     const PlaneTriangle* lane[kLanes32];
 };
