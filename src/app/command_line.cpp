@@ -427,6 +427,43 @@ void add_bake_anisotropy(CLI::App& verb, BakeAnisotropyOptions& options) {
     verb.add_flag("--json", options.json, "Print numbers as JSON");
 }
 
+/// "I/N": the I-th of N parts.
+void parse_shard(const std::string& text, ExperimentOptions& options) {
+    constexpr int kMostShards = 100000;
+    const char* const end = text.data() + text.size();
+    const auto [slash, bad_shard] = std::from_chars(text.data(), end, options.shard);
+    if (bad_shard == std::errc() && slash != end && *slash == '/') {
+        const auto [stop, bad_shards] = std::from_chars(slash + 1, end, options.shards);
+        if (bad_shards == std::errc() && stop == end && options.shard >= 1 &&
+            options.shard <= options.shards && options.shards <= kMostShards)
+            return;
+    }
+    fail(fmt::format("--shard {}, expected I/N: part I of N, 1/1 to {}/{}", text, kMostShards,
+                     kMostShards));
+}
+
+/// NAME|FILE or merge DIR...: the words are sorted out by `what_to_run`.
+void add_experiment(CLI::App& verb, ExperimentOptions& options, std::vector<std::string>& words) {
+    verb.add_option("NAME", words,
+                    "e1 .. e12, or an experiment's file; merge DIR...: join the shards in these "
+                    "directories")
+        ->required()
+        ->type_name("");
+    verb.add_option("-o,--output", options.output,
+                    "Directory, made if it is not there; what is finished in it is kept")
+        ->required()
+        ->type_name("DIR");
+    verb.add_flag("--quick", options.quick, "Fewer values and samples");
+    verb.add_option_function<std::string>(
+            "--shard", [&options](const std::string& text) { parse_shard(text, options); },
+            "Compute the I-th of N parts of the cells")
+        ->type_name("I/N");
+    verb.add_option("--threads", options.threads, "Worker threads, 0: one per core")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N");
+    verb.add_flag("--quiet", options.quiet, "Print errors only");
+}
+
 /// The parser and what it fills. Nothing moves: the parser keeps references.
 struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
@@ -440,6 +477,8 @@ struct Parser {
     BakeMaterialOptions material;
     BakeAnisotropyOptions anisotropy;
     BakeMeshOptions mesh;
+    ExperimentOptions experiment;
+    std::vector<std::string> experiment_words;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
     CLI::App* trace_verb =
         app.add_subcommand("trace", "Every register after every stage at one pixel");
@@ -453,6 +492,8 @@ struct Parser {
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
     CLI::App* compile_verb = app.add_subcommand(
         "compile", "Checks and prints program texts, or the program of a reflectance model");
+    CLI::App* experiment_verb =
+        app.add_subcommand("experiment", "Runs an experiment: cells, tables, plots and a report");
     CLI::App* info_verb =
         app.add_subcommand("info", "Version, instruction sets, profiles, formats");
 
@@ -469,6 +510,25 @@ struct Parser {
         add_bake_material(*material_verb, material);
         add_bake_anisotropy(*anisotropy_verb, anisotropy);
         add_bake_mesh(*mesh_verb, mesh);
+        add_experiment(*experiment_verb, experiment, experiment_words);
+    }
+
+    Command what_to_run() const {
+        ExperimentOptions options = experiment;
+        if (experiment_words.front() == "merge") {
+            options.merged.assign(experiment_words.begin() + 1, experiment_words.end());
+            if (options.merged.empty()) fail("experiment merge: expected DIR...");
+            if (options.shards > 1 || options.quick)
+                fail(
+                    "experiment merge: the directories say which form it is, expected neither "
+                    "--shard nor --quick");
+            return options;
+        }
+        options.experiment = experiment_words.front();
+        if (experiment_words.size() > 1)
+            fail(fmt::format("experiment {}: unexpected '{}'", options.experiment,
+                             experiment_words[1]));
+        return options;
     }
 
     Command what_to_compile() const {
@@ -483,6 +543,7 @@ struct Parser {
         if (bench_verb->parsed()) return bench;
         if (compile_verb->parsed()) return what_to_compile();
         if (info_verb->parsed()) return info;
+        if (experiment_verb->parsed()) return what_to_run();
         if (brushed_verb->parsed()) return brushed;
         if (material_verb->parsed()) return material;
         if (anisotropy_verb->parsed()) return anisotropy;

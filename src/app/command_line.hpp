@@ -117,14 +117,26 @@ struct BakeMeshOptions {
     std::filesystem::path output;
 };
 
+/// An experiment, or the directories of its shards to be joined.
+struct ExperimentOptions {
+    std::string experiment;  ///< a name or a file; empty: join `shards`
+    std::vector<std::filesystem::path> merged;
+    std::filesystem::path output;  ///< a directory, made if need be
+    bool quick = false;
+    int shard = 1, shards = 1;
+    int threads = 0;
+    bool quiet = false;
+};
+
 /// Text that was asked for instead of work: --help or --version.
 struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                             CompileModelOptions, InfoOptions, BakeBrushedOptions,
-                             BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
+using Command =
+    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
+                 CompileModelOptions, InfoOptions, BakeBrushedOptions, BakeMaterialOptions,
+                 BakeAnisotropyOptions, BakeMeshOptions, ExperimentOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

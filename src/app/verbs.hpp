@@ -30,5 +30,6 @@ void run(const BakeBrushedOptions& options);
 void run(const BakeMaterialOptions& options);
 void run(const BakeAnisotropyOptions& options);
 void run(const BakeMeshOptions& options);
+void run(const ExperimentOptions& options);
 
 }  // namespace burnish::app

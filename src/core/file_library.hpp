@@ -16,6 +16,7 @@ struct FileLibrary {
     void (*save_mesh)(const MeshData&, const std::filesystem::path&);
     LoadedScene (*load_scene)(const std::filesystem::path&, const std::vector<std::string>&);
     Material (*load_material)(const std::filesystem::path&);
+    Experiment (*load_experiment)(const std::filesystem::path&);
     LoadedScene (*scene_for_mesh)(const std::filesystem::path&);
 };
 

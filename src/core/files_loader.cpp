@@ -76,6 +76,10 @@ Material load_material(const std::filesystem::path& path) {
     return library().load_material(path);
 }
 
+Experiment load_experiment(const std::filesystem::path& path) {
+    return library().load_experiment(path);
+}
+
 LoadedScene scene_for_mesh(const std::filesystem::path& path) {
     return library().scene_for_mesh(path);
 }

@@ -68,11 +68,14 @@ glm::dmat4 inverse_of(const glm::dmat4& m, const char* what) {
 
 }  // namespace
 
+glm::dmat4 projection_matrix(const Camera& camera, int width, int height) {
+    return camera.projection ? glm::dmat4(*camera.projection)
+                             : perspective(camera, static_cast<double>(width) / height);
+}
+
 View make_view(const Camera& camera, int width, int height) {
     const glm::dmat4 view = camera.view ? glm::dmat4(*camera.view) : look_at(camera);
-    const glm::dmat4 projection = camera.projection
-                                      ? glm::dmat4(*camera.projection)
-                                      : perspective(camera, static_cast<double>(width) / height);
+    const glm::dmat4 projection = projection_matrix(camera, width, height);
     const glm::dmat4 world_from_eye = inverse_of(view, "camera view matrix");
     return {projection * view, glm::dvec3(world_from_eye[3]), glm::dvec3(world_from_eye[2])};
 }

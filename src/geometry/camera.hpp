@@ -15,6 +15,9 @@ struct View {
     glm::dvec3 back;  ///< from what it looks at towards it, world space
 };
 
+/// Eye to clip. Throws Error{bad_option} for angles or planes out of range.
+glm::dmat4 projection_matrix(const Camera& camera, int width, int height);
+
 /// Throws Error{bad_option} for a camera that sees nothing: equal position and focal point, an up
 /// vector along the line of sight, angles or planes out of range, a matrix that has no inverse.
 View make_view(const Camera& camera, int width, int height);

@@ -1,5 +1,6 @@
 #include "core/file_library.hpp"
 #include "io/atomic_file.hpp"
+#include "io/experiment_io.hpp"
 #include "io/image_io.hpp"
 #include "io/read_mesh.hpp"
 #include "io/scene_io.hpp"
@@ -16,6 +17,7 @@ extern "C" const burnish::FileLibrary* burnish_file_library() {
         .save_mesh = burnish::write_mesh_file,
         .load_scene = burnish::read_scene_file,
         .load_material = burnish::read_material_file,
+        .load_experiment = burnish::read_experiment_file,
         .scene_for_mesh = burnish::scene_for_mesh_file,
     };
     return &kLibrary;

@@ -131,6 +131,12 @@ std::optional<float> Section::number(std::string_view key, const Range& range) c
     return static_cast<float>(checked(key, *node, range));
 }
 
+std::optional<double> Section::exact_number(std::string_view key) const {
+    const toml::node* node = find(key);
+    if (node == nullptr) return std::nullopt;
+    return checked(key, *node, {});
+}
+
 std::optional<bool> Section::boolean(std::string_view key) const {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
@@ -223,6 +229,12 @@ const toml::table* Section::table(std::string_view key) const {
     if (node == nullptr) return nullptr;
     if (!node->is_table()) fail_type(key, *node, "a table");
     return node->as_table();
+}
+
+const toml::node& Section::required_node(std::string_view key) const {
+    const toml::node* node = find(key);
+    if (node == nullptr) fail(key, fmt::format("{} has no '{}'", m_label, key));
+    return *node;
 }
 
 std::vector<const toml::table*> Section::tables(std::string_view key) const {

@@ -58,6 +58,8 @@ class Section {
 
     [[nodiscard]] std::optional<int> integer(std::string_view key, int low, int high) const;
     [[nodiscard]] std::optional<float> number(std::string_view key, const Range& range = {}) const;
+    /// The same as it stands in the file.
+    [[nodiscard]] std::optional<double> exact_number(std::string_view key) const;
     [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
     [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
     /// Same, but a missing or empty one is an error.
@@ -74,6 +76,8 @@ class Section {
     [[nodiscard]] std::optional<glm::mat4> mat4(std::string_view key) const;
     [[nodiscard]] std::optional<std::vector<std::string>> texts(std::string_view key) const;
     [[nodiscard]] const toml::table* table(std::string_view key) const;
+    /// A value of any type; a missing one is an error.
+    [[nodiscard]] const toml::node& required_node(std::string_view key) const;
     /// An array of tables; empty for a missing key.
     [[nodiscard]] std::vector<const toml::table*> tables(std::string_view key) const;
 

@@ -1,0 +1,197 @@
+#include "io/experiment_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <burnish/error.hpp>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "core/nearest.hpp"
+#include "io/experiment_io_axes.hpp"
+#include "io/scene_io_parts.hpp"
+
+namespace burnish {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ExperimentMeasure>, 6> kMeasures{
+    {{"value", ExperimentMeasure::value},
+     {"ratio", ExperimentMeasure::ratio},
+     {"slope", ExperimentMeasure::slope},
+     {"halving", ExperimentMeasure::halving},
+     {"argmin", ExperimentMeasure::argmin},
+     {"argmax", ExperimentMeasure::argmax}}};
+
+constexpr int kMostSamples = 1024;
+
+int read_samples(const Section& section, int otherwise) {
+    const int samples = section.integer("samples", 1, kMostSamples).value_or(otherwise);
+    int side = 1;
+    while (side * side < samples) ++side;
+    if (side * side != samples)
+        section.fail("samples", fmt::format("'samples' = {} in {}, expected a square of 1 .. {}",
+                                            samples, section.label(), kMostSamples));
+    return samples;
+}
+
+void read_sides(const Section& root, Experiment& experiment) {
+    if (const toml::table* table = root.table("test")) {
+        const Section section(*table, "[test]", {"samples", "set"});
+        experiment.test_samples = read_samples(section, experiment.test_samples);
+        experiment.test = read_settings(section, "set");
+    }
+    if (const toml::table* table = root.table("reference")) {
+        const Section section(*table, "[reference]", {"samples", "set"});
+        experiment.reference_samples = read_samples(section, experiment.reference_samples);
+        experiment.reference = read_settings(section, "set");
+    }
+    experiment.quick_samples = std::min(experiment.quick_samples, experiment.reference_samples);
+    if (const toml::table* table = root.table("quick")) {
+        const Section section(*table, "[quick]", {"samples", "set"});
+        experiment.quick_samples = read_samples(section, experiment.quick_samples);
+        experiment.quick = read_settings(section, "set");
+    }
+}
+
+ExperimentPan read_pan(const toml::table& table) {
+    constexpr int kMostFrames = 1024;
+    const Section section(table, "[pan]", {"frames", "quick_frames", "samples", "pixels"});
+    ExperimentPan pan;
+    pan.frames = section.integer("frames", 2, kMostFrames).value_or(32);
+    pan.quick_frames = section.integer("quick_frames", 2, kMostFrames).value_or(8);
+    pan.samples = read_samples(section, pan.samples);
+    if (const auto way = section.numbers("pixels", 2, 2)) pan.pixels = {(*way)[0], (*way)[1]};
+    return pan;
+}
+
+ExperimentPlot read_plot(const toml::table& table, const Axes& axes) {
+    const Section section(table, "[[plots]]", {"title", "x", "y", "panels", "where", "log"});
+    ExperimentPlot plot;
+    plot.title = section.required_text("title");
+    plot.x = axes.required_axis(section, "x");
+    plot.y = section.required_text("y");
+    if (section.has("panels")) plot.panels = axes.required_axis(section, "panels");
+    plot.where = axes.read_choice(section, "where");
+    const std::vector<std::string> log = section.texts("log").value_or(std::vector<std::string>{});
+    for (const std::string& axis : log) {
+        if (axis != "x" && axis != "y")
+            section.fail("log", fmt::format("'log' in [[plots]] has '{}', expected x, y", axis));
+        (axis == "x" ? plot.log_x : plot.log_y) = true;
+    }
+    return plot;
+}
+
+ExperimentSheet read_sheet(const toml::table& table, const Axes& axes) {
+    const Section section(table, "[[sheets]]", {"title", "where", "gain"});
+    ExperimentSheet sheet;
+    sheet.title = section.required_text("title");
+    sheet.where = axes.read_choice(section, "where");
+    sheet.gain = section.number("gain", kPositive).value_or(sheet.gain);
+    return sheet;
+}
+
+ExperimentExpectation read_expectation(const toml::table& table, const Axes& axes) {
+    const Section section(table, "[[expect]]",
+                          {"text", "predicted", "metric", "measure", "along", "where", "versus",
+                           "at_least", "at_most"});
+    ExperimentExpectation expectation;
+    expectation.text = section.required_text("text");
+    expectation.predicted = section.text("predicted").value_or("");
+    expectation.metric = section.required_text("metric");
+    expectation.measure =
+        section.choice<ExperimentMeasure>("measure", kMeasures).value_or(ExperimentMeasure::value);
+    expectation.where = axes.read_choice(section, "where");
+    const bool is_ratio = expectation.measure == ExperimentMeasure::ratio;
+    if (is_ratio != section.has("versus"))
+        section.fail("versus", "'versus' in [[expect]] goes with measure = \"ratio\"");
+    expectation.versus = axes.read_choice(section, "versus");
+    for (const auto& [axis, labels] : expectation.versus) {
+        if (labels.size() != 1)
+            section.fail("versus", fmt::format("'versus' in [[expect]] has {} values of '{}', "
+                                               "expected one",
+                                               labels.size(), axis));
+    }
+    const bool has_axis = !is_ratio && expectation.measure != ExperimentMeasure::value;
+    if (has_axis != section.has("along"))
+        section.fail("along",
+                     "'along' in [[expect]] goes with the measures slope, halving, argmin "
+                     "and argmax");
+    if (has_axis) expectation.along = axes.required_axis(section, "along");
+    expectation.at_least = section.exact_number("at_least");
+    expectation.at_most = section.exact_number("at_most");
+    if (!expectation.at_least && !expectation.at_most)
+        section.fail("at_least", "[[expect]] needs 'at_least', 'at_most' or both");
+    return expectation;
+}
+
+Experiment interpret(const toml::table& table, const std::filesystem::path& path) {
+    const Section root(
+        table, "the experiment",
+        {"schema", "title", "hypothesis", "scenes", "sweeps", "set", "test", "reference", "quick",
+         "expose", "pan", "metrics", "plots", "sheets", "expect"});
+    require_schema(root);
+    Experiment experiment;
+    experiment.name = path.stem().string();
+    experiment.file = path;
+    experiment.title = root.required_text("title");
+    experiment.hypothesis = root.required_text("hypothesis");
+    experiment.common = read_settings(root, "set");
+    read_sides(root, experiment);
+    experiment.expose =
+        root.number("expose", {.low = 0.0, .high = 1.0, .open_low = true}).value_or(0.0F);
+    if (const toml::table* pan = root.table("pan")) experiment.pan = read_pan(*pan);
+    read_scenes(root, path.parent_path(), experiment);
+    read_sweeps(root, experiment);
+    const Axes axes(experiment.axes);
+    experiment.metrics = root.texts("metrics").value_or(std::vector<std::string>{});
+    for (const toml::table* plot : root.tables("plots"))
+        experiment.plots.push_back(read_plot(*plot, axes));
+    for (const toml::table* sheet : root.tables("sheets"))
+        experiment.sheets.push_back(read_sheet(*sheet, axes));
+    for (const toml::table* each : root.tables("expect"))
+        experiment.expectations.push_back(read_expectation(*each, axes));
+    return experiment;
+}
+
+/// Adds the files that texts of `node` name, relative to `directory`, and those that these name if
+/// they are TOML. Throws Error for one of those that cannot be parsed.
+void collect_files(const toml::node& node, const std::filesystem::path& directory,
+                   std::vector<std::filesystem::path>& found);
+
+void collect_file(const std::filesystem::path& file, std::vector<std::filesystem::path>& found) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return;
+    if (std::find(found.begin(), found.end(), file) != found.end()) return;
+    found.push_back(file);
+    if (file.extension() == ".toml")
+        collect_files(parse_scene(file, {}), file.parent_path(), found);
+}
+
+void collect_files(const toml::node& node, const std::filesystem::path& directory,
+                   std::vector<std::filesystem::path>& found) {
+    constexpr std::size_t kLongestName = 4096;
+    if (const toml::table* table = node.as_table()) {
+        for (const auto& [key, each] : *table) collect_files(each, directory, found);
+    } else if (const toml::array* array = node.as_array()) {
+        for (const toml::node& each : *array) collect_files(each, directory, found);
+    } else if (node.is_string()) {
+        const std::string& text = node.as_string()->get();
+        if (text.empty() || text.size() > kLongestName || text.find('\0') != std::string::npos)
+            return;
+        collect_file(directory / text, found);
+    }
+}
+
+}  // namespace
+
+Experiment read_experiment_file(const std::filesystem::path& path) {
+    const toml::table table = parse_scene(path, {});
+    Experiment experiment = interpret(table, path);
+    experiment.inputs.push_back(path);
+    collect_files(table, path.parent_path(), experiment.inputs);
+    return experiment;
+}
+
+}  // namespace burnish

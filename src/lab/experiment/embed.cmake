@@ -1,0 +1,12 @@
+# cmake -DROOT=DIR -DOUTPUT=FILE.cpp -P embed.cmake: all TOML files below DIR as C++ texts.
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/*.toml)
+list(SORT files)
+set(text "#include \"lab/experiment/embedded.hpp\"\n\nnamespace burnish::lab {\n\n")
+string(APPEND text "std::span<const EmbeddedFile> embedded_files() {\n")
+string(APPEND text "    static constexpr EmbeddedFile kFiles[] = {\n")
+foreach(file IN LISTS files)
+  file(READ ${ROOT}/${file} content)
+  string(APPEND text "{\"${file}\", R\"~toml~(${content})~toml~\"},\n")
+endforeach()
+string(APPEND text "    };\n    return kFiles;\n}\n\n}  // namespace burnish::lab\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/experiment/plots.hpp"
+#include "lab/experiment/run.hpp"
+#include "lab/experiment/verdicts.hpp"
+
+namespace burnish::lab {
+
+/// A page that needs no other file: hypothesis, verdict, setting, plots, contact sheets and the
+/// table of all cells. Pictures are those that `store` has.
+std::string report_html(const Results& results, const std::vector<Judgement>& judgements,
+                        const DrawnPlots& plots, const Store& store);
+
+/// Writes report.html, results.csv, results.json and manifest.json into the store's directory.
+/// Returns what could not be drawn, one line, or nothing.
+std::string write_results(const Results& results, const Store& store);
+
+}  // namespace burnish::lab

@@ -1,0 +1,204 @@
+#include "lab/experiment/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <burnish/framebuffer.hpp>
+#include <burnish/scene.hpp>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "core/nearest.hpp"
+#include "core/parallel.hpp"
+#include "lab/experiment/fingerprint.hpp"
+#include "lab/experiment/frames.hpp"
+#include "lab/experiment/pictures.hpp"
+
+namespace burnish::lab {
+namespace {
+
+/// Cells with one reference.
+using Group = std::vector<std::size_t>;
+
+std::string key_of(const PictureSettings& picture) {
+    std::string key = fmt::format("{} {}\n", picture.scene, picture.samples);
+    for (const ExperimentSetting& setting : picture.settings)
+        key += setting.key + "=" + setting.value + "\n";
+    return key;
+}
+
+/// In the order of their first cells.
+std::vector<Group> groups_of(const Results& results) {
+    std::vector<Group> groups;
+    std::map<std::string, std::size_t> known;
+    for (std::size_t cell = 0; cell < results.cells.size(); ++cell) {
+        const auto [at, is_new] =
+            known.emplace(key_of(results.cells[cell].reference), groups.size());
+        if (is_new) groups.emplace_back();
+        groups[at->second].push_back(cell);
+    }
+    return groups;
+}
+
+/// The groups' cells that shard I of N has and that are not there yet: consecutive ones, so that
+/// few references are drawn twice.
+std::vector<Group> work_of(const Results& results, const RunOptions& options) {
+    std::vector<Group> work;
+    const std::size_t count = results.cells.size();
+    const auto shards = static_cast<std::size_t>(options.shards);
+    const std::size_t begin = count * static_cast<std::size_t>(options.shard - 1) / shards;
+    const std::size_t end = count * static_cast<std::size_t>(options.shard) / shards;
+    std::size_t place = 0;
+    for (const Group& group : groups_of(results)) {
+        Group part;
+        for (const std::size_t cell : group) {
+            if (place >= begin && place < end && !results.found[cell]) part.push_back(cell);
+            ++place;
+        }
+        if (!part.empty()) work.push_back(std::move(part));
+    }
+    return work;
+}
+
+std::string inputs_fingerprint(const Experiment& experiment) {
+    Fingerprint all;
+    // The experiment's own file says which cells there are, not what is in them.
+    for (std::size_t i = 1; i < experiment.inputs.size(); ++i)
+        all.add(file_fingerprint(experiment.inputs[i]));
+    return all.text();
+}
+
+/// Scene and frames of a side of a cell.
+struct Side {
+    Scene scene;
+    double exposure = 1.0;
+};
+
+class Runner {
+  public:
+    Runner(Results& results, const Store& store, const RunOptions& options,
+           const ProgressSink& progress)
+        : m_results(results), m_store(store), m_progress(progress), m_pool(options.threads) {}
+
+    void run(const std::vector<Group>& work) {
+        for (const Group& group : work) m_total += group.size();
+        for (const Group& group : work) run_group(group);
+    }
+
+  private:
+    const Experiment& experiment() const { return m_results.experiment; }
+
+    Scene load(std::size_t cell, const PictureSettings& picture) const {
+        try {
+            return load_picture(experiment().scenes[picture.scene], picture);
+        } catch (const Error& error) {
+            throw Error(error.code(), fmt::format("{} (cell {} of {})", error.what(),
+                                                  m_results.cells[cell].name, experiment().name));
+        }
+    }
+
+    void run_group(const Group& group) {
+        const Cell& first = m_results.cells[group.front()];
+        Scene scene = load(group.front(), first.reference);
+        double factor = 1.0;
+        if (experiment().expose > 0.0F) {
+            factor = exposure(scene, static_cast<double>(experiment().expose), m_pool.size());
+            scale_lights(scene, factor);
+        }
+        const Framebuffer reference = draw_picture(scene, first.reference, m_pool.size());
+        for_each_index(m_pool, group.size(), 1,
+                       [&](std::size_t i, int) { run_cell(group[i], factor, reference); });
+    }
+
+    void run_cell(std::size_t index, double factor, const Framebuffer& reference) {
+        const Cell& cell = m_results.cells[index];
+        Scene scene = load(index, cell.test);
+        scale_lights(scene, factor);
+        CellResult result;
+        try {
+            const auto start = std::chrono::steady_clock::now();
+            const Framebuffer test = draw_picture(scene, cell.test, 1);
+            result.ms =
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                    .count();
+            result.values = measure(test, reference, experiment().metrics);
+            if (const ExperimentSheet* sheet = m_results.sheet_of(index))
+                save_pictures(test, reference, sheet->gain, {m_store.images(), cell.name});
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::bad_program && error.code() != ErrorCode::bad_option)
+                throw;
+            result.refusal = error.what();
+        }
+        m_store.keep(m_results.descriptions[index], result);
+        const std::lock_guard lock(m_mutex);
+        m_results.found[index] = std::move(result);
+        if (m_progress) m_progress(++m_done, m_total);
+    }
+
+    Results& m_results;
+    const Store& m_store;
+    const ProgressSink& m_progress;
+    WorkerPool m_pool;
+    std::mutex m_mutex;
+    std::size_t m_done = 0, m_total = 0;
+};
+
+void check_metrics(Experiment& experiment) {
+    const std::vector<std::string_view> known = measure_names();
+    if (experiment.metrics.empty()) experiment.metrics.assign(known.begin(), known.end());
+    const auto check = [&](const std::string& metric, const std::vector<std::string_view>& names,
+                           const char* where) {
+        if (std::find(names.begin(), names.end(), metric) != names.end()) return;
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: unknown metric '{}' in {}, {}", experiment.file.string(),
+                                metric, where, expected_one_of(metric, names)));
+    };
+    for (const std::string& metric : experiment.metrics) check(metric, known, "'metrics'");
+    const std::vector<std::string_view> asked(experiment.metrics.begin(), experiment.metrics.end());
+    for (const ExperimentPlot& plot : experiment.plots) check(plot.y, asked, "[[plots]]");
+    for (const ExperimentExpectation& each : experiment.expectations)
+        check(each.metric, asked, "[[expect]]");
+}
+
+}  // namespace
+
+std::size_t Results::missing() const {
+    return static_cast<std::size_t>(
+        std::count_if(found.begin(), found.end(), [](const auto& each) { return !each; }));
+}
+
+std::optional<double> Results::value(std::size_t cell, const std::string& metric) const {
+    if (!found[cell]) return std::nullopt;
+    for (const Measured& each : found[cell]->values)
+        if (each.name == metric && !std::isnan(each.value)) return each.value;
+    return std::nullopt;
+}
+
+const ExperimentSheet* Results::sheet_of(std::size_t cell) const {
+    for (const ExperimentSheet& sheet : experiment.sheets)
+        if (matches(experiment, cells[cell], sheet.where)) return &sheet;
+    return nullptr;
+}
+
+Results find_results(Experiment experiment, bool quick, const Store& store) {
+    check_metrics(experiment);
+    Results results{std::move(experiment), quick, {}, {}, {}};
+    results.cells = make_cells(results.experiment, quick);
+    const std::string inputs = inputs_fingerprint(results.experiment);
+    for (std::size_t i = 0; i < results.cells.size(); ++i) {
+        results.descriptions.push_back(
+            describe(results.experiment, results.cells[i], quick, inputs, results.sheet_of(i)));
+        results.found.push_back(store.find(results.descriptions.back()));
+    }
+    return results;
+}
+
+void run_cells(Results& results, const Store& store, const RunOptions& options,
+               const ProgressSink& progress) {
+    Runner(results, store, options, progress).run(work_of(results, options));
+}
+
+}  // namespace burnish::lab
