@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/camera.hpp"
-#include "lab/frame_errors.hpp"
+#include "metrics/frame_errors.hpp"
 
 namespace burnish::lab {
 namespace {
@@ -65,7 +65,7 @@ double exposure(const Scene& reference, double peak, int threads) {
     Renderer renderer(options);
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
     renderer.render(scene, frame);
-    const double found = interior_peak(frame);
+    const double found = metrics::interior_peak(frame);
     if (!(found > 0.0))
         throw Error(ErrorCode::bad_input, "a picture to expose is black, expected light in it");
     return peak / found;
