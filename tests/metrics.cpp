@@ -54,11 +54,13 @@ TEST(FrameErrors, AHoleIsSurroundedByNoInterior) {
 }
 
 TEST(FrameErrors, AStepCountsAlongRowsAndColumns) {
-    for (const glm::ivec2 place : {glm::ivec2(0, 1), glm::ivec2(1, 0), glm::ivec2(2, 1)}) {
-        Framebuffer want = plain(3, 2, 0.0F);
-        set(want, place.x, place.y, {0.0F, 0.25F, 0.0F, 1.0F});
-        Framebuffer got = plain(3, 2, 0.0F);
-        set(got, place.x, place.y, {0.0F, 0.75F, 0.0F, 1.0F});
+    for (const bool row : {true, false}) {
+        Framebuffer want = plain(3, 3, 0.0F), got = plain(3, 3, 0.0F);
+        for (int i = 0; i < 3; ++i) {  // all of the last row, or of the last column
+            const glm::ivec2 at = row ? glm::ivec2(i, 2) : glm::ivec2(2, i);
+            set(want, at.x, at.y, {0.0F, 0.25F, 0.0F, 1.0F});
+            set(got, at.x, at.y, {0.0F, 0.75F, 0.0F, 1.0F});
+        }
         EXPECT_EQ(compared(got, want)[Metric::step_excess], 0.5);
         EXPECT_EQ(compared(want, got)[Metric::step_excess], 0.0);  // others are as flat
     }
