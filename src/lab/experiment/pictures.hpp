@@ -1,13 +1,14 @@
 #pragma once
 
-#include <burnish/experiment.hpp>
 #include <burnish/framebuffer.hpp>
 #include <filesystem>
 #include <string>
 
+#include "metrics/plane.hpp"
+
 namespace burnish::lab {
 
-/// Whether a cell's pictures are kept: those that a sheet shows.
+/// Names of a cell's pictures.
 struct PictureFiles {
     std::filesystem::path directory;
     std::string name;
@@ -21,9 +22,9 @@ struct PictureFiles {
     }
 };
 
-/// Test and reference as EXR and PNG; as PNG the difference of their means over r, g, b times
-/// `gain`, orange where the test is brighter and blue where it is darker, and the FLIP map.
-void save_pictures(const Framebuffer& test, const Framebuffer& reference, float gain,
-                   const PictureFiles& files);
+/// Test and reference as EXR and PNG; their signed difference times `gain` and the map of FLIP as
+/// PNG (metrics/heat_map.hpp).
+void save_pictures(const Framebuffer& test, const Framebuffer& reference,
+                   const metrics::Plane& flip, float gain, const PictureFiles& files);
 
 }  // namespace burnish::lab

@@ -203,8 +203,7 @@ std::string sheet_row(const Results& results, std::size_t cell, const Experiment
     const PictureFiles files{store.images(), results.cells[cell].name};
     return text + picture(files.png("test"), "test: " + numbers) +
            picture(files.png("reference"), "reference") +
-           picture(files.png("error"),
-                   fmt::format("error times {}: orange brighter, blue darker", sheet.gain)) +
+           picture(files.png("error"), fmt::format("test - reference, times {}", sheet.gain)) +
            picture(files.png("flip"), "FLIP");
 }
 

@@ -71,10 +71,11 @@ std::string inputs_fingerprint(const Experiment& experiment) {
     return all.text();
 }
 
-/// Scene and frames of a side of a cell.
-struct Side {
-    Scene scene;
-    double exposure = 1.0;
+/// What the cells of a group have in common.
+struct Reference {
+    double light = 1.0;  ///< factor of all lights
+    Framebuffer frame;
+    std::vector<Framebuffer> series;  ///< of the pan; empty if nobody asks
 };
 
 class Runner {
@@ -100,42 +101,81 @@ class Runner {
         }
     }
 
-    void run_group(const Group& group) {
-        const Cell& first = m_results.cells[group.front()];
-        Scene scene = load(group.front(), first.reference);
-        double factor = 1.0;
-        if (experiment().expose > 0.0F) {
-            factor = exposure(scene, static_cast<double>(experiment().expose), m_pool.size());
-            scale_lights(scene, factor);
-        }
-        const Framebuffer reference = draw_picture(scene, first.reference, m_pool.size());
-        for_each_index(m_pool, group.size(), 1,
-                       [&](std::size_t i, int) { run_cell(group[i], factor, reference); });
+    /// How far the picture has moved at a frame of the pan.
+    glm::dvec2 way(int frame) const {
+        const ExperimentPan& pan = experiment().pan;
+        const double part = static_cast<double>(frame) / series_length();
+        return {part * pan.pixels[0], part * pan.pixels[1]};
+    }
+    int series_length() const {
+        if (!need_series(experiment().metrics)) return 0;
+        const ExperimentPan& pan = experiment().pan;
+        return m_results.quick ? pan.quick_frames : pan.frames;
     }
 
-    void run_cell(std::size_t index, double factor, const Framebuffer& reference) {
+    Reference draw_reference(std::size_t cell) {
+        const PictureSettings& picture = m_results.cells[cell].reference;
+        Scene scene = load(cell, picture);
+        double light = 1.0;
+        if (experiment().expose > 0.0F) {
+            light = exposure(scene, static_cast<double>(experiment().expose), m_pool.size());
+            scale_lights(scene, light);
+        }
+        Reference reference{light, draw_picture(scene, picture, m_pool.size()), {}};
+        PictureSettings moving = picture;
+        moving.samples = experiment().pan.samples;
+        for (int i = 0; i < series_length(); ++i)
+            reference.series.push_back(draw_picture(moved(scene, way(i)), moving, m_pool.size()));
+        return reference;
+    }
+
+    void run_group(const Group& group) {
+        const Reference reference = draw_reference(group.front());
+        for_each_index(m_pool, group.size(), 1,
+                       [&](std::size_t i, int) { run_cell(group[i], reference); });
+    }
+
+    void run_cell(std::size_t index, const Reference& reference) {
         const Cell& cell = m_results.cells[index];
         Scene scene = load(index, cell.test);
-        scale_lights(scene, factor);
+        scale_lights(scene, reference.light);
         CellResult result;
         try {
-            const auto start = std::chrono::steady_clock::now();
-            const Framebuffer test = draw_picture(scene, cell.test, 1);
-            result.ms =
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                    .count();
-            result.values = measure(test, reference, experiment().metrics);
-            if (const ExperimentSheet* sheet = m_results.sheet_of(index))
-                save_pictures(test, reference, sheet->gain, {m_store.images(), cell.name});
+            result = draw_and_measure(index, scene, reference);
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_program && error.code() != ErrorCode::bad_option)
                 throw;
-            result.refusal = error.what();
+            result = {{}, error.what(), 0.0};
         }
         m_store.keep(m_results.descriptions[index], result);
         const std::lock_guard lock(m_mutex);
         m_results.found[index] = std::move(result);
         if (m_progress) m_progress(++m_done, m_total);
+    }
+
+    CellResult draw_and_measure(std::size_t index, const Scene& scene,
+                                const Reference& reference) const {
+        const Cell& cell = m_results.cells[index];
+        const ExperimentSheet* sheet = m_results.sheet_of(index);
+        WorkerPool one(1);
+        CellResult result;
+        const auto start = std::chrono::steady_clock::now();
+        const Framebuffer test = draw_picture(scene, cell.test, 1);
+        result.ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                .count();
+        Measurement measured =
+            measure(test, reference.frame, experiment().metrics, sheet != nullptr, one);
+        result.values = std::move(measured.values);
+        if (sheet != nullptr)
+            save_pictures(test, reference.frame, measured.flip, sheet->gain,
+                          {m_store.images(), cell.name});
+        SeriesMeasurement series(experiment().metrics);
+        for (int i = 0; i < series_length(); ++i)
+            series.add(draw_picture(moved(scene, way(i)), cell.test, 1),
+                       reference.series[static_cast<std::size_t>(i)], one);
+        for (Measured& each : series.values()) result.values.push_back(std::move(each));
+        return result;
     }
 
     Results& m_results;
@@ -148,7 +188,11 @@ class Runner {
 
 void check_metrics(Experiment& experiment) {
     const std::vector<std::string_view> known = measure_names();
-    if (experiment.metrics.empty()) experiment.metrics.assign(known.begin(), known.end());
+    if (experiment.metrics.empty()) {
+        for (const std::string_view name : known)
+            if (experiment.pan.frames > 0 || !need_series({std::string(name)}))
+                experiment.metrics.emplace_back(name);
+    }
     const auto check = [&](const std::string& metric, const std::vector<std::string_view>& names,
                            const char* where) {
         if (std::find(names.begin(), names.end(), metric) != names.end()) return;
@@ -157,6 +201,9 @@ void check_metrics(Experiment& experiment) {
                                 metric, where, expected_one_of(metric, names)));
     };
     for (const std::string& metric : experiment.metrics) check(metric, known, "'metrics'");
+    if (need_series(experiment.metrics) && experiment.pan.frames == 0)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: flicker without [pan]", experiment.file.string()));
     const std::vector<std::string_view> asked(experiment.metrics.begin(), experiment.metrics.end());
     for (const ExperimentPlot& plot : experiment.plots) check(plot.y, asked, "[[plots]]");
     for (const ExperimentExpectation& each : experiment.expectations)
