@@ -119,11 +119,12 @@ ExperimentOutcome run_experiment(const std::string& name_or_file, const fs::path
                                  const RunOptions& options, const ProgressSink& progress) {
     const RunRecord record{identify(name_or_file), options.quick};
     // Before anything is written: a file that is wrong leaves nothing behind.
-    if (fs::path(record.experiment).is_absolute()) load_experiment(record.experiment);
+    if (fs::path(record.experiment).is_absolute()) open_experiment(record.experiment);
     const Store store(directory);
-    Experiment experiment = load_experiment(file_of(record.experiment, directory));
+    Results results =
+        make_results(open_experiment(file_of(record.experiment, directory)), options.quick);
     write_record(record, directory);
-    Results results = find_results(std::move(experiment), options.quick, store);
+    find_results(results, store);
     run_cells(results, store, options, progress);
     return finish(results, store);
 }
@@ -140,10 +141,9 @@ ExperimentOutcome merge_experiments(const std::vector<fs::path>& shards,
                             other.quick ? ", quick" : "", record.experiment,
                             record.quick ? ", quick" : "", shards.front().string()));
     }
-    const Store store(directory);
-    for (const fs::path& shard : shards) store.take(Store(shard));
-    const Results results =
-        find_results(load_experiment(file_of(record.experiment, directory)), record.quick, store);
+    Results results =
+        make_results(open_experiment(file_of(record.experiment, shards.front())), record.quick);
+    for (const fs::path& shard : shards) find_results(results, Store(shard));
     if (results.missing() > 0) {
         const auto first = std::find(results.found.begin(), results.found.end(), std::nullopt);
         const auto index = static_cast<std::size_t>(first - results.found.begin());
@@ -152,6 +152,9 @@ ExperimentOutcome merge_experiments(const std::vector<fs::path>& shards,
             fmt::format("{} of {} cells of this build are missing, the first is {}",
                         results.missing(), results.cells.size(), results.cells[index].name));
     }
+    const Store store(directory);
+    for (const fs::path& shard : shards) store.take(Store(shard));
+    file_of(record.experiment, directory);
     write_record(record, directory);
     return finish(results, store);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <burnish/error.hpp>
+#include <burnish/files.hpp>
 #include <burnish/framebuffer.hpp>
 #include <burnish/scene.hpp>
 #include <chrono>
@@ -230,17 +231,26 @@ const ExperimentSheet* Results::sheet_of(std::size_t cell) const {
     return nullptr;
 }
 
-Results find_results(Experiment experiment, bool quick, const Store& store) {
+Experiment open_experiment(const std::filesystem::path& file) {
+    Experiment experiment = load_experiment(file);
     check_metrics(experiment);
+    return experiment;
+}
+
+Results make_results(Experiment experiment, bool quick) {
     Results results{std::move(experiment), quick, {}, {}, {}};
     results.cells = make_cells(results.experiment, quick);
+    results.found.resize(results.cells.size());
     const std::string inputs = inputs_fingerprint(results.experiment);
-    for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    for (std::size_t i = 0; i < results.cells.size(); ++i)
         results.descriptions.push_back(
             describe(results.experiment, results.cells[i], quick, inputs, results.sheet_of(i)));
-        results.found.push_back(store.find(results.descriptions.back()));
-    }
     return results;
+}
+
+void find_results(Results& results, const Store& store) {
+    for (std::size_t i = 0; i < results.cells.size(); ++i)
+        if (!results.found[i]) results.found[i] = store.find(results.descriptions[i]);
 }
 
 void run_cells(Results& results, const Store& store, const RunOptions& options,

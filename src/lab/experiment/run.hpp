@@ -33,9 +33,15 @@ struct Results {
     [[nodiscard]] const ExperimentSheet* sheet_of(std::size_t cell) const;
 };
 
-/// The cells of an experiment, and those results that `store` has. Checks that metrics are known:
-/// throws Error{bad_input}. An empty list of metrics becomes all of them.
-Results find_results(Experiment experiment, bool quick, const Store& store);
+/// An experiment's file, its metrics checked: an empty list becomes all that it can have. Throws
+/// what load_experiment does, and Error{bad_input} for an unknown metric.
+Experiment open_experiment(const std::filesystem::path& file);
+
+/// The cells of an experiment, without results.
+Results make_results(Experiment experiment, bool quick);
+
+/// Adds the results that `store` has.
+void find_results(Results& results, const Store& store);
 
 /// Called after each finished cell with how many there are and were to do; from any worker, one at
 /// a time.
