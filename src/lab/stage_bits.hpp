@@ -9,16 +9,18 @@
 /// A picture whose numbers are exact but at chosen stages: which of them costs how much.
 namespace burnish::lab {
 
-/// How many bits the numbers have that a stage leaves, kExactBits: as many as a double has.
+/// How many bits the numbers have that a stage leaves; kExactBits: as many as a double has.
 ///
-/// b bits are 2^b - 1 steps between 0 and 1; a sign comes on top where it says "and a sign", and
-/// takes a bit where numbers are coded x/2 + 1/2, 1/2 being code 2^(b - 1). A machine of nine bits
-/// has 8, 8, 8, 9, 8, 8 here, and `nearest`.
+/// b bits are 2^b - 1 steps between 0 and 1; of combiners b bits are a sign and 2^(b - 1) - 1 steps
+/// to 1. Where numbers are x/2 + 1/2 of a signed x and 1/2 is a code of the machine (wide ones, and
+/// `expand = "ideal"`) steps are counted from 1/2, so that 0 stays 0. On others they are not, and a
+/// combiner stage of b bits takes 2^(b - 2) / (2^(b - 1) - 1) for 1/2, as `expand` does with 9.
+/// A nine-bit machine has 8, 8, 8, 9, 8, 8 here and `nearest`, or what its `product_rounding` is.
 struct StageBits {
     /// Vectors, cosines and colours that the interpolators bring to registers, coded.
     int half_vector = kExactBits;
     int textures = kExactBits;  ///< texels of the material layer
-    int filter = kExactBits;    ///< each of the lerps between texels
+    int filter = kExactBits;    ///< each lerp between texels; b bits of its weight, downwards
     /// Products and outputs of general stages, and their constants: a sign and b - 1 bits.
     int combiners = kExactBits;
     /// General stages one by one, instead of `combiners`; those beyond the end have that.
