@@ -14,8 +14,8 @@ inline constexpr int kMostBits = 24;
 enum class BitRounding {
     nearest,   ///< halves away from 0
     truncate,  ///< towards 0
-    /// The NV2A's: a product of two codes is divided by one more than the code of 1, downwards;
-    /// every other number is taken downwards.
+    /// The NV2A's choice for products: divided by one more than the code of 1, downwards; other
+    /// numbers are rounded to nearest.
     shift8,
     /// Up as often as the number lies beyond the grid's lower neighbour: right on average.
     stochastic,
@@ -50,8 +50,9 @@ class Quantiser {
     double product(double x, int bits) {
         const double one = std::ldexp(1.0, bits - 1) - 1.0;
         if (bits == kExactBits) return skip(x);
-        const double by = m_rounding == BitRounding::shift8 ? one * (one / (one + 1.0)) : one;
-        return step(x * by) / one;
+        if (m_rounding != BitRounding::shift8) return step(x * one) / one;
+        ++m_count;
+        return std::floor(x * one * (one / (one + 1.0)) + 0x1p-24) / one;
     }
 
     /// c = x/2 + 1/2 of x in -1 .. 1, in 2^bits - 1 steps with 1/2 as code 2^(bits - 1): 0 stays 0,
@@ -76,11 +77,10 @@ class Quantiser {
         if (std::abs(x - nearest) < 0x1p-24) return nearest;
         switch (m_rounding) {
             case BitRounding::nearest:
+            case BitRounding::shift8:
                 return nearest;
             case BitRounding::truncate:
                 return std::trunc(x);
-            case BitRounding::shift8:
-                return std::floor(x);
             case BitRounding::stochastic:
                 break;
         }

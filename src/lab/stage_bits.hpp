@@ -1,7 +1,12 @@
 #pragma once
 
+#include <burnish/combiner.hpp>
 #include <burnish/framebuffer.hpp>
 #include <burnish/scene.hpp>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/quantiser.hpp"
@@ -9,16 +14,18 @@
 /// A picture whose numbers are exact but at chosen stages: which of them costs how much.
 namespace burnish::lab {
 
-/// How many bits the numbers have that a stage leaves, kExactBits: as many as a double has.
+/// How many bits the numbers have that a stage leaves; kExactBits: as many as a double has.
 ///
-/// b bits are 2^b - 1 steps between 0 and 1; a sign comes on top where it says "and a sign", and
-/// takes a bit where numbers are coded x/2 + 1/2, 1/2 being code 2^(b - 1). A machine of nine bits
-/// has 8, 8, 8, 9, 8, 8 here, and `nearest`.
+/// b bits are 2^b - 1 steps between 0 and 1; of combiners b bits are a sign and 2^(b - 1) - 1 steps
+/// to 1. Where numbers are x/2 + 1/2 of a signed x and 1/2 is a code of the machine (wide ones, and
+/// `expand = "ideal"`) steps are counted from 1/2, so that 0 stays 0. On others they are not, and a
+/// combiner stage of b bits takes 2^(b - 2) / (2^(b - 1) - 1) for 1/2, as `expand` does with 9.
+/// A nine-bit machine has 8, 8, 8, 9, 8, 8 here and `nearest`, or what its `product_rounding` is.
 struct StageBits {
     /// Vectors, cosines and colours that the interpolators bring to registers, coded.
     int half_vector = kExactBits;
     int textures = kExactBits;  ///< texels of the material layer
-    int filter = kExactBits;    ///< each of the lerps between texels
+    int filter = kExactBits;    ///< each lerp between texels; b bits of its weight, downwards
     /// Products and outputs of general stages, and their constants: a sign and b - 1 bits.
     int combiners = kExactBits;
     /// General stages one by one, instead of `combiners`; those beyond the end have that.
@@ -29,14 +36,40 @@ struct StageBits {
     BitRounding rounding = BitRounding::nearest;
 };
 
-/// Draws `scene`, at its size, as its machine does but in double precision, with numbers rounded
-/// where `bits` says so: rgba32f, alpha 1 where there is a surface, one sample at the pixel's
-/// centre. The machine says what a program looks like, where the half vector comes from, and at
-/// which values registers stop; its own numbers do not count, and models are drawn from textures
-/// and tables of 16 bits. The same bits for any number of threads (0: one per core).
-/// Throws Error{bad_program} for blended draws, fragments that may be dropped and mip levels at
-/// computed coordinates, Error{bad_option} for bits outside 1 .. 24, for profile double, and what
-/// Renderer::render throws.
+/// A scene in double precision, prepared once and drawn with any bits, at its size. What the
+/// machine says is what a program looks like, where half vectors come from, and at which values
+/// registers stop; its own numbers do not count: models are drawn from textures and tables of 16
+/// bits.
+class BitRenderer {
+  public:
+    /// @param scene    outlives this object
+    /// @param threads  0: one per core; pictures have the same bits with any number
+    /// Throws Error{bad_program} for blended draws, fragments that may be dropped after shading and
+    /// mip levels at computed coordinates, Error{bad_option} for profile double, and what
+    /// Renderer::render throws.
+    explicit BitRenderer(const Scene& scene, int threads = 0);
+    ~BitRenderer();
+    BitRenderer(const BitRenderer&) = delete;
+    BitRenderer& operator=(const BitRenderer&) = delete;
+
+    /// rgba32f, alpha 1 where there is a surface, else the scene's background; one sample at the
+    /// centre of each pixel. Throws Error{bad_option} for bits outside 1 .. 24, of combiners 2
+    /// .. 24.
+    Framebuffer render(const StageBits& bits);
+    /// Red, green and blue of pixel (x, y) of the frame; nothing where it shows the background.
+    std::optional<glm::dvec3> pixel(const StageBits& bits, int x, int y);
+
+    /// General stages of the longest program.
+    [[nodiscard]] std::size_t stage_count() const;
+    /// The program of object number `object` in the first light.
+    [[nodiscard]] const CombinerProgram& program(std::size_t object) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+/// One picture. Throws what BitRenderer throws.
 Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads = 0);
 
 }  // namespace burnish::lab

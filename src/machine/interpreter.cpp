@@ -70,21 +70,45 @@ struct CodeNumbers {
     [[nodiscard]] int constant(float x) const {
         return color_code(x, wide ? NumberModel::wide : NumberModel::nine_bit);
     }
+    [[nodiscard]] static int from_output(int x) { return x; }
+    [[nodiscard]] const CodeNumbers& of_stage(std::size_t /*stage*/) const { return *this; }
+    [[nodiscard]] const CodeNumbers& of_final() const { return *this; }
 };
 
-/// The real numbers that the codes stand for.
+/// The real numbers that the codes stand for, rounded to any number of bits or not at all.
 struct RealNumbers {
     using Value = double;
     using Coordinate = double;
     double one, half;
     double low, high;
     bool wide;
+    CombinerRounding rounding = {};
+    bool half_is_rounded = false;  ///< up to a code, as the hardware does
+    int bits = kExactBits;         ///< of the stage at work, with a sign
 
-    [[nodiscard]] static double from_product(double x) { return x; }
+    [[nodiscard]] double from_product(double x) const {
+        return rounding.quantiser == nullptr ? x : rounding.quantiser->product(x, bits);
+    }
     [[nodiscard]] static double halved(double x) { return 0.5 * x; }
-    [[nodiscard]] static double expanded(double x) { return 2.0 * x - 1.0; }
-    [[nodiscard]] static double half_biased(double x) { return x - 0.5; }
-    [[nodiscard]] static double blend(double ab, double rest) { return ab + rest; }
+    [[nodiscard]] double expanded(double x) const { return 2.0 * (x - half); }
+    [[nodiscard]] double half_biased(double x) const { return x - half; }
+    [[nodiscard]] double blend(double ab, double rest) const { return from_product(ab + rest); }
+    /// After bias and scale, which may leave halves.
+    [[nodiscard]] double from_output(double x) const {
+        return rounding.quantiser == nullptr ? x : rounding.quantiser->signed_number(x, bits);
+    }
+    [[nodiscard]] RealNumbers of_stage(std::size_t stage) const {
+        RealNumbers n = *this;
+        if (stage < rounding.stages.size()) n.bits = rounding.stages[stage];
+        if (half_is_rounded && n.bits != kExactBits)
+            n.half = std::ldexp(1.0, n.bits - 2) / (std::ldexp(1.0, n.bits - 1) - 1.0);
+        return n;
+    }
+    [[nodiscard]] RealNumbers of_final() const {
+        RealNumbers n = *this;
+        if (rounding.final_bits != kExactBits) n.bits = rounding.final_bits + 1;
+        return n;
+    }
     /// The nearest nine-bit code is.
     [[nodiscard]] static bool is_odd(double x) {
         return std::fmod(std::floor(x * 255.0 + 0.5), 2.0) != 0.0;
@@ -92,8 +116,8 @@ struct RealNumbers {
     [[nodiscard]] static double coordinate(double e, bool expand) {
         return expand ? 2.0 * std::max(e, 0.0) - 1.0 : e;
     }
-    [[nodiscard]] static double constant(float x) {
-        return x > 0.0F ? std::min(static_cast<double>(x), 1.0) : 0.0;
+    [[nodiscard]] double constant(float x) const {
+        return from_output(x > 0.0F ? std::min(static_cast<double>(x), 1.0) : 0.0);
     }
 };
 
@@ -185,6 +209,7 @@ Value output(const Portion& portion, Value x, const N& n) {
             x = n.halved(x);
             break;
     }
+    x = n.from_output(x);
     if (n.wide && portion.wide) return std::clamp(x, n.low, n.high);
     return std::clamp(x, -n.one, n.one);
 }
@@ -274,9 +299,9 @@ Components<N> run_final(const FinalCombiner& final, Registers<typename N::Value>
     Components<N> result;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto blended = n.blend(a[i] * b[i], (n.one - a[i]) * c[i]);
-        result[i] = std::min(n.one, blended + d[i]);
+        result[i] = n.from_output(std::min(n.one, blended + d[i]));
     }
-    result[3] = read_final(registers, final.g, n)[3];
+    result[3] = n.from_output(read_final(registers, final.g, n)[3]);
     return result;
 }
 
@@ -299,26 +324,24 @@ template <class N, class Fetch, class Value = typename N::Value>
 Components<N> run_program(const CombinerProgram& program, const Registers<Value>& inputs,
                           std::vector<Registers<Value>>* trace, const Fetch& fetch, const N& n) {
     Registers<Value> registers = initial_registers(program, inputs, n);
-    const Components<N> global0 = registers[Register::const0];
-    const Components<N> global1 = registers[Register::const1];
-    const auto constant = [&](const std::optional<glm::vec4>& own, const Components<N>& global) {
-        return own ? constants(*own, n) : global;
-    };
     if (trace != nullptr) trace->push_back(registers);
 
-    for (const GeneralStage& stage : program.stages) {
-        registers[Register::const0] = constant(stage.const0, global0);
-        registers[Register::const1] = constant(stage.const1, global1);
-        run_fetches(stage, registers, fetch, n);
+    for (std::size_t s = 0; s < program.stages.size(); ++s) {
+        const GeneralStage& stage = program.stages[s];
+        const N& own = n.of_stage(s);
+        registers[Register::const0] = constants(stage.const0.value_or(program.const0), own);
+        registers[Register::const1] = constants(stage.const1.value_or(program.const1), own);
+        run_fetches(stage, registers, fetch, own);
         const Registers<Value> before = registers;
-        run_portion(stage.rgb, program.mux_bit, before, registers, 0, 2, n);
-        run_portion(stage.alpha, program.mux_bit, before, registers, 3, 3, n);
+        run_portion(stage.rgb, program.mux_bit, before, registers, 0, 2, own);
+        run_portion(stage.alpha, program.mux_bit, before, registers, 3, 3, own);
         if (trace != nullptr) trace->push_back(registers);
     }
 
-    registers[Register::const0] = global0;
-    registers[Register::const1] = global1;
-    const Components<N> result = run_final(program.final_combiner, registers, n);
+    const N& last = n.of_final();
+    registers[Register::const0] = constants(program.const0, last);
+    registers[Register::const1] = constants(program.const1, last);
+    const Components<N> result = run_final(program.final_combiner, registers, last);
     if (trace != nullptr) trace->push_back(registers);
     return result;
 }
@@ -350,10 +373,13 @@ Codes run_combiners(const CombinerProgram& program, const Machine& machine,
 
 Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
                             const RealRegisters& inputs, std::vector<RealRegisters>* trace,
-                            const FetchReals& fetch) {
+                            const FetchReals& fetch, const CombinerRounding& rounding) {
     if (!fetch) require_no_fetches(program);
-    const bool wide = machine.numbers == NumberModel::wide;
-    return run_program(program, inputs, trace, fetch, wide ? kWideReals : kNineBitReals);
+    RealNumbers numbers = machine.numbers == NumberModel::wide ? kWideReals : kNineBitReals;
+    numbers.rounding = rounding;
+    numbers.half_is_rounded =
+        machine.numbers == NumberModel::nine_bit && machine.expand == ExpandRule::hardware;
+    return run_program(program, inputs, trace, fetch, numbers);
 }
 
 }  // namespace burnish

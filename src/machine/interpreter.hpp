@@ -5,7 +5,10 @@
 #include <burnish/machine.hpp>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
+
+#include "core/quantiser.hpp"
 
 /// The combiner machine for one fragment, straight from the rules and as plain as they are: the
 /// oracle for programs that were bound to kernels, and what `burnish trace` shows.
@@ -56,11 +59,21 @@ Codes run_combiners(const CombinerProgram& program, const Machine& machine,
                     const RegisterFile& inputs, std::vector<RegisterFile>* trace = nullptr,
                     const FetchCodes& fetch = nullptr);
 
-/// The same program in exact arithmetic (double precision): nothing is rounded, 1/2 is 1/2, and
-/// values stop where the machine's registers and operands stop.
+/// What rounds the numbers of a program that runs in double precision: the constants that a stage
+/// may read, each product and each output; of the final combiner its product, its lerp and what it
+/// delivers.
+struct CombinerRounding {
+    Quantiser* quantiser = nullptr;    ///< null: nothing is rounded
+    std::span<const int> stages = {};  ///< bits of each general stage, a sign and the rest
+    int final_bits = kExactBits;       ///< without a sign
+};
+
+/// The same program in exact arithmetic (double precision): nothing is rounded unless `rounding`
+/// says so, 1/2 is 1/2, and values stop where the machine's registers and operands stop.
 Reals run_combiners_exactly(const CombinerProgram& program, const Machine& machine,
                             const RealRegisters& inputs,
                             std::vector<RealRegisters>* trace = nullptr,
-                            const FetchReals& fetch = nullptr);
+                            const FetchReals& fetch = nullptr,
+                            const CombinerRounding& rounding = {});
 
 }  // namespace burnish

@@ -13,31 +13,33 @@ namespace {
 constexpr int kWideOne = 16384;
 
 /// A number of 0 .. 1 as a texel's word, whose code in a wide register is as near as can be, or as
-/// a byte.
-int texel_code(double x, NumberModel numbers) {
+/// near as words are, or as a byte.
+int texel_code(double x, TexelCoding coding) {
     x = std::clamp(x, 0.0, 1.0);
-    if (numbers == NumberModel::nine_bit) return static_cast<int>(255.0 * x + 0.5);
+    if (coding == TexelCoding::bytes) return static_cast<int>(255.0 * x + 0.5);
+    if (coding == TexelCoding::fine) return static_cast<int>(65535.0 * x + 0.5);
     return std::min(4 * static_cast<int>(kWideOne * x + 0.5), 65535);
 }
 
 /// A component of -1 .. 1, for `expand`.
-int vector_code(double x, NumberModel numbers) {
-    if (numbers == NumberModel::wide) return texel_code(0.5 * x + 0.5, numbers);
+int vector_code(double x, TexelCoding coding) {
+    if (coding != TexelCoding::bytes) return texel_code(0.5 * x + 0.5, coding);
     return static_cast<int>(std::clamp(127.5 * x + 128.0, 0.0, 255.0));
 }
 
 /// Channels of a texture, whichever texels it has.
 class TexelImage {
   public:
-    TexelImage(int width, int height, NumberModel numbers) : m_numbers(numbers) {
-        if (numbers == NumberModel::wide) {
+    TexelImage(int width, int height, TexelCoding coding)
+        : m_is_words(coding != TexelCoding::bytes) {
+        if (m_is_words) {
             m_words = Image16(width, height);
         } else {
             m_bytes = Image8(width, height);
         }
     }
     void put(int x, int y, int channel, int code) {
-        if (m_numbers == NumberModel::wide) {
+        if (m_is_words) {
             m_words.at(x, y)[channel] = static_cast<std::uint16_t>(code);
         } else {
             m_bytes.at(x, y)[channel] = static_cast<std::uint8_t>(code);
@@ -45,7 +47,7 @@ class TexelImage {
     }
     TexturePtr texture(const TextureDescription& of) const {
         TextureDescription description = of;
-        if (m_numbers == NumberModel::wide) {
+        if (m_is_words) {
             description.format = TexelFormat::rgba16;
             return std::make_shared<const Texture>(std::span(&m_words, 1), description);
         }
@@ -53,25 +55,26 @@ class TexelImage {
     }
 
   private:
-    NumberModel m_numbers;
+    bool m_is_words;
     Image8 m_bytes;
     Image16 m_words;
 };
 
-TexturePtr table_texture(const PlanTable& table, NumberModel numbers) {
+TexturePtr table_texture(const PlanTable& table, TexelCoding coding) {
     const int width = table.axes[0].size;
     const int height = table.axes.size() == 2 ? table.axes[1].size : 1;
-    TexelImage image(width, height, numbers);
+    TexelImage image(width, height, coding);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const double value = table.values[static_cast<std::size_t>(y * width + x)];
-            const int code = table.coded ? vector_code(value, numbers) : texel_code(value, numbers);
+            const int code = table.coded ? vector_code(value, coding) : texel_code(value, coding);
             for (int c = 0; c < 4; ++c) image.put(x, y, c, code);
         }
     }
+    const bool is_words = coding != TexelCoding::bytes;
     Sampler sampler;
     // A nine-bit coordinate has a texel of its own.
-    sampler.filter = numbers == NumberModel::wide ? Filter::linear : Filter::nearest;
+    sampler.filter = is_words ? Filter::linear : Filter::nearest;
     sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     const auto span = [&](std::size_t axis) {
         return table.axes[axis].is_signed ? TexelSpan::signed_centers : TexelSpan::centers;
@@ -80,21 +83,20 @@ TexturePtr table_texture(const PlanTable& table, NumberModel numbers) {
     if (height > 1) sampler.span_t = span(1);
     TexturePtr texture = image.texture(
         {.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d, .sampler = sampler});
-    return numbers == NumberModel::wide ? Texture::table(*texture) : texture;
+    return is_words ? Texture::table(*texture) : texture;
 }
 
 /// How the codes of a quantity are read.
-LayerQuantity description(const PlanQuantity& q, NumberModel numbers) {
+LayerQuantity description(const PlanQuantity& q, TexelCoding coding) {
     LayerQuantity d;
     d.name = q.name;
     d.components = q.kind == ValueKind::scalar ? 1 : 3;
     d.logarithmic = q.logarithmic;
-    const bool wide = numbers == NumberModel::wide;
     // Registers hold n / 65536, n / 255, and twice that less 1, less 256/255.
-    const double one = wide ? 65535.0 / 65536.0 : 1.0;
+    const double one = coding == TexelCoding::words ? 65535.0 / 65536.0 : 1.0;
     if (q.kind == ValueKind::vector) {
         d.scale = q.unit * (2.0 * one);
-        d.offset = q.unit * (wide ? -1.0 : -256.0 / 255.0);
+        d.offset = q.unit * (coding == TexelCoding::bytes ? -256.0 / 255.0 : -1.0);
     } else {
         d.scale = q.unit * one;
         d.offset = glm::dvec3(q.low);
@@ -104,13 +106,13 @@ LayerQuantity description(const PlanQuantity& q, NumberModel numbers) {
 
 /// Component `c` of a quantity as codes, from left to right.
 template <class Put>
-void write_row(const PlanQuantity& q, int c, std::span<const double> values, NumberModel numbers,
+void write_row(const PlanQuantity& q, int c, std::span<const double> values, TexelCoding coding,
                Put put) {
     int x = 0;
     for (const double value : values) {
         const double v =
             q.logarithmic ? (dmath::log2(value) - q.low) / q.unit.x : value / q.unit[c];
-        put(x++, q.kind == ValueKind::vector ? vector_code(v, numbers) : texel_code(v, numbers));
+        put(x++, q.kind == ValueKind::vector ? vector_code(v, coding) : texel_code(v, coding));
     }
 }
 
@@ -137,15 +139,19 @@ glm::dvec3 LayerQuantity::decoded(const glm::dvec3& x) const {
     return logarithmic ? glm::dvec3(dmath::exp2(value.x)) : value;
 }
 
+TexelCoding texel_coding(NumberModel numbers) {
+    return numbers == NumberModel::wide ? TexelCoding::words : TexelCoding::bytes;
+}
+
 BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
-                   NumberModel numbers) {
+                   TexelCoding coding) {
     const TexelSource& source = texels.source();
     BakedTextures baked;
     baked.units.resize(schedule.material.units.size());
     std::vector<std::unique_ptr<TexelImage>> images(baked.units.size());
     for (const QuantityPlace& place : schedule.quantities) {
         auto& image = images[static_cast<std::size_t>(place.unit)];
-        if (!image) image = std::make_unique<TexelImage>(source.width(), source.height(), numbers);
+        if (!image) image = std::make_unique<TexelImage>(source.width(), source.height(), coding);
     }
     for (int y = 0; y < source.height(); ++y) {
         if (!plan.quantities.empty()) texels.seek(y);
@@ -154,7 +160,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
             const QuantityPlace& place = schedule.quantities[i];
             TexelImage& image = *images[static_cast<std::size_t>(place.unit)];
             for (int c = 0; c < (place.alpha ? 1 : 3); ++c)
-                write_row(q, c, texels.component(*q.expr, c), numbers,
+                write_row(q, c, texels.component(*q.expr, c), coding,
                           [&](int x, int code) { image.put(x, y, place.alpha ? 3 : c, code); });
         }
     }
@@ -163,16 +169,16 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
         baked.units[i] =
             images[i]->texture({.sampler = source.sampler(), .box_mipmaps = source.has_levels()});
     }
-    if (numbers == NumberModel::wide && !source.has_levels()) gather_quartets(baked.units);
+    if (coding == TexelCoding::words && !source.has_levels()) gather_quartets(baked.units);
     for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
-        LayerQuantity d = description(plan.quantities[i], numbers);
+        LayerQuantity d = description(plan.quantities[i], coding);
         d.texture = baked.units[static_cast<std::size_t>(schedule.quantities[i].unit)];
         d.channel = schedule.quantities[i].alpha ? 3 : 0;
         baked.layer.push_back(std::move(d));
     }
     for (std::size_t i = 0; i < plan.tables.size(); ++i) {
         baked.units[static_cast<std::size_t>(schedule.tables[i])] =
-            table_texture(plan.tables[i], numbers);
+            table_texture(plan.tables[i], coding);
     }
     return baked;
 }

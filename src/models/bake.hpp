@@ -9,14 +9,22 @@
 
 namespace burnish {
 
+/// What the texels of a compiled model are.
+enum class TexelCoding {
+    bytes,  ///< for nine-bit machines
+    words,  ///< for wide ones: the 14 bits of their registers
+    fine,   ///< words of 16 bits, n / 65535, for programs that are run in double precision
+};
+TexelCoding texel_coding(NumberModel numbers);
+
 /// The textures of a scheduled plan: the material layer, coded as the program wants it, and tables.
-/// Bytes on nine-bit machines, words on wide ones; bits do not depend on the C library.
+/// Bits do not depend on the C library.
 struct BakedTextures {
     std::vector<TexturePtr> units;     ///< null where a unit has none
     std::vector<LayerQuantity> layer;  ///< of the plan's quantities, in their order
 };
 /// @param texels  with all of the plan's quantities
 BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
-                   NumberModel numbers);
+                   TexelCoding coding);
 
 }  // namespace burnish

@@ -49,6 +49,8 @@ struct ModelCompiler::Parts {
 
     CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient);
 
+    TexelPrecision precision = TexelPrecision::machine;
+
   private:
     Cover& cover_for(const Machine& room, const Machine& machine);
     /// The model for `machine`, within what `room` has.
@@ -89,11 +91,14 @@ CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Mach
     task.light = light;
     task.ambient = ambient;
     task.numbers = machine.numbers;
+    task.fine_tables = precision == TexelPrecision::fine;
     task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
     const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges(), tables);
     Schedule scheduled = schedule(plan, room, machine);
-    BakedTextures baked = bake(plan, scheduled, terms.texels(), machine.numbers);
+    BakedTextures baked =
+        bake(plan, scheduled, terms.texels(),
+             task.fine_tables ? TexelCoding::fine : texel_coding(machine.numbers));
 
     CompiledModel compiled;
     compiled.program = std::move(scheduled.material);
@@ -175,7 +180,8 @@ ModelCompiler::ModelCompiler(const Material& material)
 ModelCompiler::~ModelCompiler() = default;
 
 CompiledModel ModelCompiler::compile(const Machine& machine, const glm::vec3& light,
-                                     const glm::vec3& ambient) {
+                                     const glm::vec3& ambient, TexelPrecision precision) {
+    m_parts->precision = precision;
     return m_parts->compile(machine, light, ambient);
 }
 

@@ -46,6 +46,10 @@ struct CompiledModel {
 CompiledModel compile_model(const Material& material, const Machine& machine,
                             const glm::vec3& light, const glm::vec3& ambient);
 
+/// Texels of a compiled model: what the machine takes, or as fine as double precision asks for
+/// (TexelCoding::fine), which no nine-bit machine can sample. Programs are the same.
+enum class TexelPrecision { machine, fine };
+
 /// compile_model for one material on one machine and in one light after the other: what depends on
 /// the material alone is worked out once, its texels kept as TexelQuantities does.
 class ModelCompiler {
@@ -55,7 +59,8 @@ class ModelCompiler {
     ModelCompiler(const ModelCompiler&) = delete;
     ModelCompiler& operator=(const ModelCompiler&) = delete;
 
-    CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient);
+    CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient,
+                          TexelPrecision precision = TexelPrecision::machine);
 
   private:
     struct Parts;

@@ -563,7 +563,8 @@ class Planner {
             t.axes.push_back(axis(*args[i], domain.arguments[i]));
             t.axes.back().name = print_expression(*args[i]);
         }
-        m_tables.fill(t, e, args, domain.arguments, m_task.numbers);
+        m_tables.fill(t, e, args, domain.arguments,
+                      m_task.fine_tables ? NumberModel::wide : m_task.numbers);
         PlanValue v;
         v.op = PlanOp::table;
         v.index = static_cast<int>(m_plan.tables.size());

@@ -23,9 +23,61 @@ double mix(double a, double b, double weight) {
 
 }  // namespace
 
+std::vector<bool> coded_planes(const LightShading& shading, const CombinerProgram& program) {
+    Registers<bool> expanded;
+    const auto look = [&](const Input& in) {
+        if (in.mapping < Mapping::expand || in.mapping > Mapping::half_bias_negate) return;
+        std::array<bool, 4>& of = expanded[in.reg];
+        if (in.component == Component::rgb) of[0] = of[1] = of[2] = true;
+        if (in.component == Component::blue) of[2] = true;
+        if (in.component == Component::alpha) of[3] = true;
+    };
+    for (const GeneralStage& stage : program.stages) {
+        for (const StageFetch& fetch : stage.fetches) {
+            for (int i = 0; i < coordinate_count(fetch.target); ++i) {
+                const FetchCoordinate& at = fetch.coordinates[static_cast<std::size_t>(i)];
+                if (at.expand) expanded[at.reg][at.component] = true;
+            }
+        }
+        for (const Portion* p : {&stage.rgb, &stage.alpha}) {
+            if (!p->writes()) continue;
+            for (const Input* in : {&p->a, &p->b, &p->c, &p->d}) look(*in);
+        }
+    }
+    std::vector<bool> coded(static_cast<std::size_t>(shading.program.plane_count));
+    const auto mark = [&](int plane, bool is_coded) {
+        if (plane >= 0 && is_coded) coded[static_cast<std::size_t>(plane)] = true;
+    };
+    for (int r = 0; r < kRegisterCount; ++r) {
+        for (std::size_t c = 0; c < 4; ++c)
+            mark(shading.program.input[static_cast<std::size_t>(r)][c],
+                 expanded[static_cast<Register>(r)][c]);
+    }
+    for (const BoundFetch& fetch : shading.program.fetches) {
+        for (int c = 0; c < 4; ++c)
+            mark(fetch.out + c, expanded[tex(fetch.unit)][static_cast<std::size_t>(c)]);
+    }
+    // What goes to such a plane through others is coded there, too.
+    for (auto op = shading.inputs.rbegin(); op != shading.inputs.rend(); ++op) {
+        if (const auto* decode = std::get_if<DecodeCtx>(&*op)) {
+            mark(decode->plane, decode->reading == Reading::expanded);
+        } else if (const auto* copy = std::get_if<CopyCtx>(&*op)) {
+            mark(copy->from, coded[static_cast<std::size_t>(copy->to)]);
+        } else if (const auto* blend = std::get_if<BlendLevelsCtx>(&*op)) {
+            for (int k = 0; k < blend->channels; ++k) {
+                mark(blend->a + k, coded[static_cast<std::size_t>(blend->out + k)]);
+                mark(blend->b + k, coded[static_cast<std::size_t>(blend->out + k)]);
+            }
+        }
+    }
+    return coded;
+}
+
 ExactInputs::ExactInputs(const Shading& shading, const ScreenMesh& mesh,
-                         const SetupTriangle& triangle, std::int32_t x, std::int32_t y)
+                         const SetupTriangle& triangle, std::int32_t x, std::int32_t y,
+                         const InputRounding& rounding)
     : m_shading(shading),
+      m_rounding(rounding),
       m_attributes(kMaxAttributes),
       m_planes(static_cast<std::size_t>(shading.program.plane_count)) {
     CornerAttributes corner;
@@ -54,7 +106,8 @@ void ExactInputs::feed(const InputOp& op) {
         void operator()(const ClearCtx& c) const { plane(c.plane) = 0.0; }
         void operator()(const LightingCtx& c) const { to.light(c); }
         void operator()(const EncodeCtx& c) const {
-            plane(c.plane) = clamp_to_one(attribute(c.attribute));
+            plane(c.plane) = to.rounded(clamp_to_one(attribute(c.attribute)), c.plane, false,
+                                        to.m_rounding.vectors);
         }
         void operator()(const AddressCtx& c) const { to.locate(c); }
         void operator()(const FetchCtx& c) const {
@@ -88,9 +141,10 @@ void ExactInputs::feed(const InputOp& op) {
             to.look_up(c, plane(c.s.plane), c.t.plane < 0 ? 0.0 : plane(c.t.plane));
         }
         void operator()(const BlendLevelsCtx& c) const {
-            const double weight = plane(c.weight) - std::floor(plane(c.weight));
+            const double weight = to.cut(plane(c.weight) - std::floor(plane(c.weight)));
             for (int k = 0; k < c.channels; ++k) {
-                plane(c.out + k) = mix(plane(c.a + k), plane(c.b + k), weight);
+                plane(c.out + k) = to.rounded(mix(plane(c.a + k), plane(c.b + k), weight),
+                                              c.out + k, false, to.m_rounding.filter);
             }
         }
         void operator()(const BlendedCtx& /*c*/) const {}  // a fragment alone goes through all
@@ -254,9 +308,10 @@ void ExactInputs::locate(const AddressCtx& ctx) {
     m_u = attribute(ctx.u) / q;
     m_v = attribute(ctx.v) / q;
     m_level = m_layer = 0;
+    m_is_table = ctx.u >= kMaxInterpolated;
     const bool linear = ctx.linear != 0, rectangle = ctx.rectangle != 0;
-    m_column = position(m_u, ctx.width, ctx.mode_s, linear, rectangle);
-    m_row = position(m_v, ctx.height, ctx.mode_t, linear, rectangle);
+    m_column = table_position(m_u, ctx.width, ctx.mode_s, linear, rectangle);
+    m_row = table_position(m_v, ctx.height, ctx.mode_t, linear, rectangle);
 }
 
 void ExactInputs::locate(const LevelAddressCtx& ctx) {
@@ -271,8 +326,9 @@ void ExactInputs::locate(const LevelAddressCtx& ctx) {
         ctx, static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
     const LevelAddressCtx::Level& level = ctx.levels[m_level];
     const bool rectangle = ctx.rectangle != 0;
-    m_column = position(m_u, level.width, ctx.mode_s, linear, rectangle);
-    m_row = position(m_v, level.height, ctx.mode_t, linear, rectangle);
+    m_is_table = ctx.u >= kMaxInterpolated && ctx.face < 0;
+    m_column = table_position(m_u, level.width, ctx.mode_s, linear, rectangle);
+    m_row = table_position(m_v, level.height, ctx.mode_t, linear, rectangle);
     m_layer = ctx.face < 0 ? 0 : static_cast<int>(plane(ctx.face));
     if (ctx.r < 0) return;
     const Position slice = position(m_r, level.depth, ctx.mode_r, linear, false);
@@ -341,24 +397,109 @@ void ExactInputs::measure(const FootprintCtx& ctx) {
     m_attributes[static_cast<std::size_t>(ctx.out)] = largest;
 }
 
+ExactInputs::Position ExactInputs::table_position(double u, int size, AddressMode mode, bool linear,
+                                                  bool rectangle) {
+    const Position exact = position(u, size, mode, linear, rectangle);
+    if (!m_is_table || m_rounding.quantiser == nullptr || size < 2) return exact;
+    const double last = size - 1;
+    const double at = std::clamp((exact.texel + exact.weight) / last, 0.0, 1.0);
+    const double x = last * m_rounding.quantiser->unsigned_number(at, m_rounding.table);
+    if (m_rounding.table == kExactBits) return exact;
+    const double left = std::min(std::floor(x), last - 1.0);
+    return {static_cast<int>(left), x - left};
+}
+
+double ExactInputs::cut(double weight) const {
+    if (m_rounding.filter == kExactBits) return weight;
+    const double one = std::ldexp(1.0, m_rounding.filter);
+    return std::floor(weight * one) / one;
+}
+
+double ExactInputs::rounded(double x, int plane, bool is_signed, int bits) {
+    if (m_rounding.quantiser == nullptr) return x;
+    if (is_signed) return m_rounding.quantiser->signed_number(x, bits);
+    if (m_rounding.coded != nullptr && (*m_rounding.coded)[static_cast<std::size_t>(plane)])
+        return m_rounding.quantiser->coded_number(x, bits);
+    return m_rounding.quantiser->unsigned_number(x, bits);
+}
+
 void ExactInputs::fetch(const Texture& texture, int plane, int channels) {
+    const bool given = &texture == m_shading.half_cube.get();
+    const InputRounding kept = m_rounding;
+    if (given) m_rounding = {};
     for (int c = 0; c < channels; ++c) {
+        const int to = plane + c;
+        const bool is_signed = texture.is_signed(c);
         const auto texel = [&](int right, int down) {
-            return texel_value(texture, m_level, m_layer, m_column.texel + right,
-                               m_row.texel + down, c);
+            return rounded(texel_value(texture, m_level, m_layer, m_column.texel + right,
+                                       m_row.texel + down, c),
+                           to, is_signed, m_is_table ? kExactBits : m_rounding.texels);
         };
-        m_planes[static_cast<std::size_t>(plane + c)] =
-            mix(mix(texel(0, 0), texel(1, 0), m_column.weight),
-                mix(texel(0, 1), texel(1, 1), m_column.weight), m_row.weight);
+        const auto lerp = [&](double a, double b, double weight) {
+            if (m_is_table) return mix(a, b, weight);
+            return rounded(mix(a, b, cut(weight)), to, is_signed, m_rounding.filter);
+        };
+        const double upper = lerp(texel(0, 0), texel(1, 0), m_column.weight);
+        const double lower = lerp(texel(0, 1), texel(1, 1), m_column.weight);
+        const double value = lerp(upper, lower, m_row.weight);
+        m_planes[static_cast<std::size_t>(to)] =
+            rounded(value, to, is_signed, m_is_table ? m_rounding.table : kExactBits);
     }
+    m_rounding = kept;
+}
+
+RealRegisters ExactInputs::registers() const {
+    RealRegisters result;
+    const auto take = [&](Register reg) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            const int k = m_shading.program.input[static_cast<std::size_t>(reg)][c];
+            if (k >= 0) result[reg][c] = plane(k);
+        }
+    };
+    take(Register::col0);
+    take(Register::col1);
+    for (int unit = 0; unit < 16; ++unit) {
+        if ((m_shading.unit_states.black >> unit & 1) != 0) continue;
+        if ((m_shading.unit_states.enabled >> unit & 1) != 0) {
+            take(tex(unit));
+        } else {
+            result[tex(unit)][3] = 1.0;
+        }
+    }
+    return result;
+}
+
+Reals ExactInputs::fetch_between_stages(std::size_t number, const std::array<double, 3>& at,
+                                        double footprint) {
+    const BoundFetch& bound = m_shading.program.fetches.at(number);
+    Reals reals{};
+    std::size_t coordinate = 0;
+    for (const InputOp& op : m_shading.stage_fetches.at(number).ops) {
+        if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
+            set_attribute(decode->attribute, at.at(coordinate++));
+        } else if (const auto* quad = std::get_if<QuadFootprintCtx>(&op)) {
+            set_attribute(quad->footprint.out, footprint);
+        } else if (const auto* table = std::get_if<LookUpTableCtx>(&op)) {
+            // All channels have one value, of which only those that are read have a plane.
+            look_up(*table, at[0], at[1]);
+            reals.fill(plane(*std::find_if(std::begin(table->out), std::end(table->out),
+                                           [](int out) { return out >= 0; })));
+            return reals;
+        } else {
+            feed(op);
+        }
+    }
+    for (std::size_t c = 0; c < 4; ++c) reals[c] = plane(bound.out + static_cast<int>(c));
+    return reals;
 }
 
 void ExactInputs::look_up(const LookUpTableCtx& ctx, double s, double t) {
-    const auto along = [](const LookUpTableCtx::Axis& axis, double at) {
+    m_is_table = true;
+    const auto along = [&](const LookUpTableCtx::Axis& axis, double at) {
         const double scaled =
             at * static_cast<double>(axis.scale) + static_cast<double>(axis.offset);
-        return position(scaled / static_cast<double>(axis.divisor), axis.size,
-                        AddressMode::clamp_to_edge, true, false);
+        return table_position(scaled / static_cast<double>(axis.divisor), axis.size,
+                              AddressMode::clamp_to_edge, true, false);
     };
     m_level = m_layer = 0;
     m_column = along(ctx.s, s);

@@ -4,25 +4,46 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/quantiser.hpp"
+#include "machine/interpreter.hpp"
 #include "shade/attributes.hpp"
 #include "shade/shading.hpp"
 
 namespace burnish {
 
+/// What rounds the numbers that come to the registers of a program in double precision.
+struct InputRounding {
+    Quantiser* quantiser = nullptr;  ///< null: nothing is rounded
+    /// coded_planes of the shading: these are rounded as Quantiser::coded_number does; null: none.
+    const std::vector<bool>* coded = nullptr;
+    int vectors = kExactBits;  ///< of interpolators and lighting
+    int texels = kExactBits;
+    int filter = kExactBits;  ///< each lerp, and the fraction of its weight, cut off downwards
+    int table = kExactBits;   ///< of texels at computed coordinates: 2^b along an axis, of b bits
+};
+
+/// Register planes that hold x/2 + 1/2, since `program` or a texture unit expands them.
+std::vector<bool> coded_planes(const LightShading& shading, const CombinerProgram& program);
+
 /// What the attributes stage and the input operations of a shading mean, in double precision for
 /// one fragment: attributes from the vertices' own, light without rounding, filter weights of any
-/// fineness, colours that are not coded.
+/// fineness, colours that are not coded. Numbers are rounded where `rounding` says so.
 class ExactInputs {
   public:
     /// Interpolates what the triangle's corners have at pixel (x, y) of the window.
     ExactInputs(const Shading& shading, const ScreenMesh& mesh, const SetupTriangle& triangle,
-                std::int32_t x, std::int32_t y);
+                std::int32_t x, std::int32_t y, const InputRounding& rounding = {});
 
     /// Operations come in the order of shading.inputs. What a quad covers, QuadFootprintCtx, is for
     /// the caller to set.
     void feed(const InputOp& op);
-    /// A table at coordinates that are registers' numbers.
-    void look_up(const LookUpTableCtx& ctx, double s, double t);
+    /// Registers before the program; units that are off read (0, 0, 0, 1), those without a result
+    /// (0, 0, 0, 0).
+    [[nodiscard]] RealRegisters registers() const;
+    /// The texel of fetch `number` between stages, at coordinates that are registers' numbers.
+    /// @param footprint  what a quad covers, if the fetch asks for it
+    Reals fetch_between_stages(std::size_t number, const std::array<double, 3>& at,
+                               double footprint = 0.0);
 
     [[nodiscard]] double attribute(int k) const {
         return m_attributes[static_cast<std::size_t>(k)];
@@ -39,6 +60,7 @@ class ExactInputs {
     /// What a colour, as texels deliver it, stands for.
     static double number(double color, Reading reading);
 
+    void look_up(const LookUpTableCtx& ctx, double s, double t);
     void light(const LightingCtx& ctx);
     void locate(const AddressCtx& ctx);
     void locate(const LevelAddressCtx& ctx);
@@ -52,8 +74,15 @@ class ExactInputs {
         double weight;
     };
     static Position position(double u, int size, AddressMode mode, bool linear, bool rectangle);
+    /// The same, on the grid of a table if the coordinate was computed.
+    Position table_position(double u, int size, AddressMode mode, bool linear, bool rectangle);
+    /// The weight of a lerp as its filter has it.
+    [[nodiscard]] double cut(double weight) const;
+    /// A number for `plane`, or a channel of a texel.
+    double rounded(double x, int plane, bool is_signed, int bits);
 
     const Shading& m_shading;
+    InputRounding m_rounding;
     std::vector<double> m_attributes, m_planes;
     /// Interpolated attributes over w, and 1/w as the first: here, one pixel right, one down.
     std::array<std::vector<double>, 3> m_over_w;
@@ -61,6 +90,7 @@ class ExactInputs {
     // What the last address found.
     int m_level = 0, m_layer = 0;
     Position m_column{}, m_row{};
+    bool m_is_table = false;  ///< coordinates were computed from texels, registers or light
 };
 
 /// The texture that a fetch reads.

@@ -127,6 +127,7 @@ class InputTracer {
     /// (0, 0, 0, 0).
     [[nodiscard]] FragmentInputs registers() const {
         FragmentInputs result;
+        result.exact = m_exact.registers();
         for (auto& filled : result.filled.values) filled.fill(true);
         const BoundProgram& program = m_shading.program;
         for (const Register reg : {Register::col0, Register::col1}) {
@@ -136,7 +137,6 @@ class InputTracer {
             if ((m_shading.unit_states.black >> unit & 1) != 0) continue;
             if ((m_shading.unit_states.enabled >> unit & 1) == 0) {
                 result.codes[tex(unit)][3] = code_of_one(program.numbers);
-                result.exact[tex(unit)][3] = 1.0;
                 continue;
             }
             for (std::size_t c = 0; c < 4; ++c) take(tex(unit), c, result);
@@ -161,7 +161,6 @@ class InputTracer {
         to.filled[reg][c] = plane >= 0;
         if (plane < 0) return;
         to.codes[reg][c] = m_packet.plane(plane);
-        to.exact[reg][c] = m_exact.plane(plane);
     }
 
     void note(const InputOp& op, TracedFragment& out) {
@@ -299,7 +298,9 @@ class StageFetches {
         return [fetches = *this, next = std::size_t{0}](const StageFetch& fetch,
                                                         const std::array<double, 3>& at) mutable {
             if (!fetches.has_texture(fetch)) return Reals{0.0, 0.0, 0.0, 1.0};
-            return fetches.fetch_exactly(next++, at);
+            const std::size_t number = next++;
+            return fetches.m_exact.fetch_between_stages(number, at,
+                                                        fetches.m_footprints.at(number));
         };
     }
 
@@ -340,28 +341,6 @@ class StageFetches {
     static int any_output(const LookUpTableCtx& table) {
         return *std::find_if(std::begin(table.out), std::end(table.out),
                              [](int plane) { return plane >= 0; });
-    }
-
-    Reals fetch_exactly(std::size_t number, const std::array<double, 3>& at) {
-        std::size_t coordinate = 0;
-        for (const InputOp& op : m_draw->shading.stage_fetches.at(number).ops) {
-            if (const auto* decode = std::get_if<DecodeCtx>(&op)) {
-                m_exact.set_attribute(decode->attribute, at.at(coordinate++));
-            } else if (const auto* quad = std::get_if<QuadFootprintCtx>(&op)) {
-                m_exact.set_attribute(quad->footprint.out, m_footprints.at(number));
-            } else if (const auto* table = std::get_if<LookUpTableCtx>(&op)) {
-                m_exact.look_up(*table, at[0], at[1]);
-                Reals reals{};
-                reals.fill(m_exact.plane(any_output(*table)));
-                return reals;
-            } else {
-                m_exact.feed(op);
-            }
-        }
-        Reals reals{};
-        for (std::size_t c = 0; c < 4; ++c)
-            reals[c] = m_exact.plane(program().fetches.at(number).out + static_cast<int>(c));
-        return reals;
     }
 
     const Draw* m_draw;

@@ -1,0 +1,266 @@
+#include "lab/stage_bits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <burnish/multipass.hpp>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "core/cpu.hpp"
+#include "draw.hpp"
+#include "models/compile_model.hpp"
+#include "raster/bin.hpp"
+#include "raster/tile.hpp"
+#include "shade/normalisation_cube.hpp"
+#include "trace/exact_inputs.hpp"
+
+namespace burnish::lab {
+
+namespace {
+
+void check_bits(std::string_view name, int bits, int fewest) {
+    if (bits == kExactBits || (bits >= fewest && bits <= kMostBits)) return;
+    throw Error(ErrorCode::bad_option, fmt::format("{} of {} bits, expected {} .. {} or exact",
+                                                   name, bits, fewest, kMostBits));
+}
+
+void check(const StageBits& bits) {
+    check_bits("half_vector", bits.half_vector, 1);
+    check_bits("textures", bits.textures, 1);
+    check_bits("filter", bits.filter, 1);
+    check_bits("combiners", bits.combiners, 2);
+    for (const int b : bits.combiner_stages) check_bits("a combiner stage", b, 2);
+    check_bits("table", bits.table, 1);
+    check_bits("frame", bits.frame, 1);
+}
+
+/// `machine` with room for a whole program and, for models, with texels of 16 bits: what plans the
+/// inputs. Registers stop where those of `machine` do all the same.
+Machine planning_machine(const Machine& machine, bool is_model) {
+    Machine roomy = machine.multipass ? with_room(machine) : machine;
+    roomy.multipass = false;
+    if (is_model) roomy.numbers = NumberModel::wide;
+    return roomy;
+}
+
+/// Whether x/2 + 1/2 of 0 is to be a code: not where `expand` takes the next one for it.
+bool half_is_a_code(const Machine& machine) {
+    return machine.numbers == NumberModel::wide || machine.expand == ExpandRule::ideal;
+}
+
+/// An object in one light.
+struct LitDraw {
+    Draw draw;
+    CombinerProgram program;
+    std::vector<bool> coded;
+};
+
+/// Models with fine texels; programs and maps of the talk's model as they are.
+ProgramMaterial fine_program(const Object& object, const Scene& scene, std::size_t light,
+                             DerivedMaps& maps) {
+    const Material& material = object.material ? *object.material : Material{};
+    const bool has_maps = material.model == Model::abp_modified && material.tangent_map;
+    if (material.program || has_maps || !std::holds_alternative<Mesh>(object.geometry))
+        return program_of(object, scene, light, maps);
+    const Light source = scene.lights.empty() ? Light{.intensity = 0.0F} : scene.lights[light];
+    return ModelCompiler(material)
+        .compile(scene.machine.for_programs(), source.color * source.intensity,
+                 light == 0 ? scene.ambient : glm::vec3(0.0F), TexelPrecision::fine)
+        .program;
+}
+
+/// The bits of each general stage.
+std::vector<int> stage_bits(const StageBits& bits, std::size_t count) {
+    std::vector<int> stages(count, bits.combiners);
+    std::copy_n(bits.combiner_stages.begin(), std::min(bits.combiner_stages.size(), count),
+                stages.begin());
+    return stages;
+}
+
+void fill(Framebuffer& target, const glm::vec4& color) {
+    for (int y = 0; y < target.height(); ++y) {
+        for (int x = 0; x < target.width(); ++x)
+            std::memcpy(target.row(y) + static_cast<std::size_t>(x) * sizeof color, &color,
+                        sizeof color);
+    }
+}
+
+}  // namespace
+
+/// A scene on its way to pixels in double precision.
+struct BitRenderer::State {
+    State(const Scene& of, int threads)
+        : scene(of),
+          pool(threads),
+          size{scene.width, scene.height},
+          viewport(make_viewport(scene.machine, scene.width, scene.height)),
+          chunks(scene.objects.size()),
+          visibility(static_cast<std::size_t>(pool.size())) {
+        for (const Object& object : scene.objects) prepare(object);
+        for (std::size_t i = 0; i < draws.size(); ++i) {
+            const Draw& draw = draws[i].front()->draw;
+            chunks[i].fill(
+                {draw.mesh(), static_cast<std::uint32_t>(i), draw.facing, viewport, size}, 0,
+                draw.triangle_count(), table_reference());
+        }
+    }
+
+    void prepare(const Object& object) {
+        const bool is_model = !(object.material && object.material->program);
+        Scene planned = scene;
+        planned.machine = planning_machine(scene.machine, is_model);
+        FrameView view{&planned, make_view(scene.camera, scene.width, scene.height), viewport};
+        view.half_cube = HalfVectorCube().of(planned.machine);
+        std::vector<std::unique_ptr<LitDraw>>& lit = draws.emplace_back();
+        const std::size_t lights = std::max<std::size_t>(scene.lights.size(), 1);
+        for (std::size_t light = 0; light < lights; ++light) {
+            const ProgramMaterial program = fine_program(object, scene, light, maps);
+            LitDraw& in = *lit.emplace_back(std::make_unique<LitDraw>());
+            prepare_draw(in.draw, view, object, {&program, 1}, light, {.everything = true});
+            transform_draw(in.draw, view, object, table_reference(), pool);
+            in.program = program.combiners;
+            in.coded = coded_planes(in.draw.shading, in.program);
+        }
+        const Draw& first = lit.front()->draw;
+        if (first.ordered || first.shading.quads)
+            throw Error(ErrorCode::bad_program,
+                        fmt::format("material '{}': {} cannot be drawn with chosen bits",
+                                    object.material ? object.material->name : Material{}.name,
+                                    first.ordered ? "what is blended or dropped after shading"
+                                                  : "mip levels at computed coordinates"));
+        rules.push_back(first.depth);
+    }
+
+    /// Calls take(triangle, x, y) for every visible fragment of tile (x, y).
+    template <class Take>
+    void for_each_fragment(std::int32_t x, std::int32_t y, TileVisibility& tile, const Take& take) {
+        tile.begin(x, y, size, nullptr, table_reference());
+        for (const Chunk& chunk : chunks) {
+            if (!chunk.tile(x, y).empty()) tile.draw(chunk, rules, table_reference());
+        }
+        if (!tile.shows_anything()) return;
+        const TileFragments fragments = tile.collect(table_reference());
+        for (std::size_t t = 0; t < fragments.triangles.size(); ++t) {
+            for (std::uint32_t k = fragments.first[t]; k < fragments.first[t + 1]; ++k) {
+                constexpr int kBlocks = kTileSize / kBlockSize;
+                const int block = fragments.pixels[k] / kBlockPixels,
+                          inside = fragments.pixels[k] % kBlockPixels;
+                take(*fragments.triangles[t],
+                     tile.left() + block % kBlocks * kBlockSize + inside % kBlockSize,
+                     tile.top() + block / kBlocks * kBlockSize + inside / kBlockSize);
+            }
+        }
+    }
+
+    [[nodiscard]] glm::dvec3 shade(const StageBits& bits, const SetupTriangle& triangle, int x,
+                                   int y) const {
+        glm::dvec3 sum(0.0);
+        for (std::size_t light = 0; light < draws[triangle.draw].size(); ++light) {
+            Quantiser quantiser(bits.rounding);
+            quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                            static_cast<std::uint32_t>(light));
+            sum += shade(bits, *draws[triangle.draw][light], triangle, x, y, quantiser);
+        }
+        return glm::min(sum, 1.0);
+    }
+
+    /// In one light.
+    [[nodiscard]] glm::dvec3 shade(const StageBits& bits, const LitDraw& lit,
+                                   const SetupTriangle& triangle, int x, int y,
+                                   Quantiser& quantiser) const {
+        const Shading& shading = lit.draw.shading;
+        const InputRounding rounding{.quantiser = &quantiser,
+                                     .coded = half_is_a_code(scene.machine) ? &lit.coded : nullptr,
+                                     .vectors = bits.half_vector,
+                                     .texels = bits.textures,
+                                     .filter = bits.filter,
+                                     .table = bits.table};
+        ExactInputs inputs(shading, lit.draw.mesh(), triangle, x, y, rounding);
+        for (const InputOp& op : shading.inputs) inputs.feed(op);
+        std::size_t next = 0;
+        const FetchReals fetch = [&](const StageFetch& f, const std::array<double, 3>& at) {
+            const int unit = static_cast<int>(f.destination) - static_cast<int>(Register::tex0);
+            if ((shading.unit_states.textured >> unit & 1) == 0) return Reals{0.0, 0.0, 0.0, 1.0};
+            return inputs.fetch_between_stages(next++, at);
+        };
+        const std::vector<int> stages = stage_bits(bits, lit.program.stages.size());
+        const Reals color = run_combiners_exactly(lit.program, scene.machine, inputs.registers(),
+                                                  nullptr, fetch, {&quantiser, stages, bits.frame});
+        return {color[0], color[1], color[2]};
+    }
+
+    const Scene& scene;
+    WorkerPool pool;
+    FrameSize size;
+    Viewport viewport;
+    DerivedMaps maps;
+    std::vector<std::vector<std::unique_ptr<LitDraw>>> draws;  ///< object by object
+    std::vector<DepthRule> rules;
+    std::vector<Chunk> chunks;               ///< of each object
+    std::vector<TileVisibility> visibility;  ///< of each worker
+};
+
+BitRenderer::BitRenderer(const Scene& scene, int threads) {
+    scene.machine.validate();
+    if (scene.machine.double_precision)
+        throw Error(ErrorCode::bad_option,
+                    "chosen bits with profile double, which has no stages; expected one of the "
+                    "machines");
+    m_state = std::make_unique<State>(scene, threads);
+}
+BitRenderer::~BitRenderer() = default;
+
+Framebuffer BitRenderer::render(const StageBits& bits) {
+    check(bits);
+    State& s = *m_state;
+    Framebuffer target(s.size.width, s.size.height, PixelFormat::rgba32f);
+    fill(target, s.scene.background);
+    const std::int32_t columns = (s.size.width + kTileSize - 1) / kTileSize,
+                       rows = (s.size.height + kTileSize - 1) / kTileSize;
+    for_each_index(
+        s.pool, static_cast<std::size_t>(columns * rows), 1, [&](std::size_t tile, int worker) {
+            const auto i = static_cast<std::int32_t>(tile);
+            s.for_each_fragment(
+                i % columns, i / columns, s.visibility[static_cast<std::size_t>(worker)],
+                [&](const SetupTriangle& triangle, int x, int y) {
+                    const glm::vec4 color(glm::vec3(s.shade(bits, triangle, x, y)), 1.0F);
+                    std::memcpy(target.row(y) + static_cast<std::size_t>(x) * sizeof color, &color,
+                                sizeof color);
+                });
+        });
+    return target;
+}
+
+std::optional<glm::dvec3> BitRenderer::pixel(const StageBits& bits, int x, int y) {
+    check(bits);
+    State& s = *m_state;
+    std::optional<glm::dvec3> color;
+    s.for_each_fragment(x / kTileSize, y / kTileSize, s.visibility.front(),
+                        [&](const SetupTriangle& triangle, int at_x, int at_y) {
+                            if (at_x == x && at_y == y) color = s.shade(bits, triangle, x, y);
+                        });
+    return color;
+}
+
+std::size_t BitRenderer::stage_count() const {
+    std::size_t most = 0;
+    for (const auto& object : m_state->draws) {
+        for (const auto& lit : object) most = std::max(most, lit->program.stages.size());
+    }
+    return most;
+}
+
+const CombinerProgram& BitRenderer::program(std::size_t object) const {
+    return m_state->draws.at(object).front()->program;
+}
+
+Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads) {
+    check(bits);
+    return BitRenderer(scene, threads).render(bits);
+}
+
+}  // namespace burnish::lab
