@@ -30,6 +30,8 @@ namespace {
 #include "kernels/transform.inl"
 #include "kernels/words.inl"
 
+#include "kernels/corners.inl"  // after levels.inl, whose choice of a level it uses
+
 #include "kernels/blend.inl"  // after final.inl: what it blends is what store writes
 #include "kernels/fragment_tests.inl"
 

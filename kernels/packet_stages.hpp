@@ -240,6 +240,46 @@ struct LevelAddressCtx {
     Level levels[kMaxLevels];
 };
 
+/// The centre of one of the four texels around a sample point, and what the four weigh.
+/// The level is that of `choice` by lambda = plane `lambda`, or 0, as in LevelAddressCtx;
+/// linear = lambda > 0 ? min_linear : mag_linear. Where there is a q, u = u / q and v = v / q
+/// first. Of u, with n texels on the axis and steps = float(256 * n), rectangle: 256,
+///   repeat: whole = floor(u); mirrored_repeat: whole = 2 * floor(u * 0.5); others: whole = 0;
+///   f = u - whole, mirrored_repeat: g = f > 1 ? 2 - f : f, others: g = f;
+///   x = floor(g * steps) - (linear ? 128 : 0), x0 = floor(x * 2^-8), weight = x - x0 * 256, within
+///   0 .. 255 (NaN gives 0), 0 if not linear;
+///   c = (x0 * 256 + (right ? 384.5 : 128.5)) / steps, mirrored_repeat with f > 1: c = 2 - c;
+///   to = whole + c: the middle of the 1/256 texel at whose lower end the centre is, so that
+///   AddressCtx finds nothing but that texel.
+/// v, with `below`, likewise.
+struct TexelCornerCtx {
+    int u, v;    ///< attribute planes
+    int q;       ///< attribute plane, or -1
+    int lambda;  ///< plane, or -1
+    int to;      ///< attribute planes: to, to + 1
+    int weight;  ///< planes to write: of the right texels and, next, of the lower ones
+    int level;   ///< plane to write with 256 * the level, or -1
+    AddressMode mode_s, mode_t;
+    LevelChoice choice;
+    std::uint8_t right, below;  ///< which of the four
+    std::uint8_t mag_linear, min_linear;
+    std::uint8_t rectangle;
+    std::int32_t level_count;
+    LevelAddressCtx::Level levels[LevelAddressCtx::kMaxLevels];  ///< depth, offset: not looked at
+};
+
+/// Colours of four corners become one. Corner k has four planes from `corners` + 4 k on: upper
+/// left, upper right, lower left, lower right; wx and wy are the planes weight, weight + 1.
+/// nine_bit: h = ((256 - wx) * left + wx * right + 128) >> 8 for both rows, then
+///   ((256 - wy) * h_top + wy * h_bottom + 128) >> 8.
+/// wide: ((256 - wy) * ((256 - wx) * left + wx * right) + wy * (the same below) + 2^15) >> 16.
+struct FilterCtx {
+    static constexpr int kCorners = 4;
+    int corners;
+    int weight;
+    int out;  ///< first of four planes, none of those above
+};
+
 /// An input of a combiner portion: the register planes of its components and the mapping, by the
 /// numbers 0 .. 7 of the hardware (burnish::Mapping in the same order). kIdealHalf + 2 .. 5 are
 /// expand .. half_bias_negate with 1/2 = 127.5, nine-bit portions only.

@@ -739,6 +739,50 @@ void level_address(Packet& packet, const LevelAddressCtx& ctx) noexcept {
     }
 }
 
+struct CornerPosition {
+    float coordinate;
+    std::int16_t weight;
+};
+
+CornerPosition corner_position(float u, std::int32_t size, AddressMode mode, bool linear,
+                               bool rectangle, bool second) {
+    const float steps = rectangle ? 256.0F : static_cast<float>(256 * size);
+    float whole = 0.0F;
+    if (mode == AddressMode::repeat) whole = std::floor(u);
+    if (mode == AddressMode::mirrored_repeat) whole = 2.0F * std::floor(u * 0.5F);
+    const float f = u - whole;
+    const bool mirrored = mode == AddressMode::mirrored_repeat && f > 1.0F;
+    const float x = std::floor((mirrored ? 2.0F - f : f) * steps) - (linear ? 128.0F : 0.0F);
+    const float x0 = std::floor(x * 0x1p-8F);
+    const float weight = minimum(maximum(x - x0 * 256.0F, 0.0F), 255.0F);
+    const float c = (x0 * 256.0F + (second ? 384.5F : 128.5F)) / steps;
+    return {whole + (mirrored ? 2.0F - c : c),
+            linear ? static_cast<std::int16_t>(weight) : std::int16_t{0}};
+}
+
+void texel_corner(Packet& packet, const TexelCornerCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const int lambda = ctx.lambda < 0 ? 0 : plane(packet, ctx.lambda)[i];
+        const bool linear = (lambda > 0 ? ctx.min_linear : ctx.mag_linear) != 0;
+        const int number = chosen_level(ctx.choice, lambda, ctx.level_count - 1);
+        const LevelAddressCtx::Level& level = ctx.levels[number];
+        const auto coordinate = [&](int k) {
+            const float c = attribute(packet, k)[i];
+            return ctx.q < 0 ? c : c / attribute(packet, ctx.q)[i];
+        };
+        const bool rectangle = ctx.rectangle != 0;
+        const CornerPosition s = corner_position(coordinate(ctx.u), level.width, ctx.mode_s, linear,
+                                                 rectangle, ctx.right != 0);
+        const CornerPosition t = corner_position(coordinate(ctx.v), level.height, ctx.mode_t,
+                                                 linear, rectangle, ctx.below != 0);
+        attribute(packet, ctx.to)[i] = s.coordinate;
+        attribute(packet, ctx.to + 1)[i] = t.coordinate;
+        plane(packet, ctx.weight)[i] = s.weight;
+        plane(packet, ctx.weight + 1)[i] = t.weight;
+        if (ctx.level >= 0) plane(packet, ctx.level)[i] = static_cast<std::int16_t>(256 * number);
+    }
+}
+
 // ---- the two number models
 
 /// x / 2 with ties to the even neighbour.
@@ -1247,6 +1291,37 @@ void store(Packet& packet, const StoreCtx& ctx) noexcept {
     }
 }
 
+/// `filtered(upper left, upper right, lower left, lower right, wx, wy)` of every channel.
+template <class Filter>
+void filter_corners(Packet& packet, const FilterCtx& ctx, Filter filtered) {
+    for (int i = 0; i < packet.count; ++i) {
+        const Int wx = plane(packet, ctx.weight)[i], wy = plane(packet, ctx.weight + 1)[i];
+        for (int c = 0; c < 4; ++c) {
+            const auto corner = [&](int k) {
+                return Int{plane(packet, ctx.corners + 4 * k + c)[i]};
+            };
+            const Int x = filtered(corner(0), corner(1), corner(2), corner(3), wx, wy);
+            plane(packet, ctx.out + c)[i] = static_cast<std::int16_t>(x);
+        }
+    }
+}
+
+void filter_nine_bit(Packet& packet, const FilterCtx& ctx) noexcept {
+    filter_corners(packet, ctx, [](Int a, Int b, Int c, Int d, Int wx, Int wy) {
+        const auto lerp = [](Int from, Int to, Int w) {
+            return shift_half_up((256 - w) * from + w * to, 8);
+        };
+        return lerp(lerp(a, b, wx), lerp(c, d, wx), wy);
+    });
+}
+
+void filter_wide(Packet& packet, const FilterCtx& ctx) noexcept {
+    filter_corners(packet, ctx, [](Int a, Int b, Int c, Int d, Int wx, Int wy) {
+        const Int top = (256 - wx) * a + wx * b, bottom = (256 - wx) * c + wx * d;
+        return shift_half_up((256 - wy) * top + wy * bottom, 16);
+    });
+}
+
 // ---- blending
 
 /// A channel of a frame of whole numbers, `One` of which are 1.
@@ -1441,6 +1516,7 @@ const KernelTable& table_reference() noexcept {
         .quad_footprint = quad_footprint,
         .level_of_detail = level_of_detail,
         .level_address = level_address,
+        .texel_corner = texel_corner,
         .fetch_hilo = fetch_hilo,
         .fetch_words = fetch_words,
         .fetch_quartet = fetch_quartet,
@@ -1451,6 +1527,8 @@ const KernelTable& table_reference() noexcept {
         .portion_wide = portion<Wide>,
         .final_nine_bit = final_combiner<NineBit>,
         .final_wide = final_combiner<Wide>,
+        .filter_nine_bit = filter_nine_bit,
+        .filter_wide = filter_wide,
         .store_nine_bit = store<NineBit>,
         .store_wide = store<Wide>,
         .blend_nine_bit = blend<NineBit>,

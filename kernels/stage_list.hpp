@@ -45,6 +45,7 @@
     X(quad_footprint, QuadFootprintCtx)   \
     X(level_of_detail, LevelOfDetailCtx)  \
     X(level_address, LevelAddressCtx)     \
+    X(texel_corner, TexelCornerCtx)       \
     X(fetch_hilo, FetchHiloCtx)           \
     X(fetch_words, FetchWordsCtx)         \
     X(fetch_quartet, FetchQuartetCtx)     \
@@ -55,6 +56,8 @@
     X(portion_wide, PortionCtx)           \
     X(final_nine_bit, FinalCtx)           \
     X(final_wide, FinalCtx)               \
+    X(filter_nine_bit, FilterCtx)         \
+    X(filter_wide, FilterCtx)             \
     X(store_nine_bit, StoreCtx)           \
     X(store_wide, StoreCtx)               \
     X(blend_nine_bit, BlendCtx)           \

@@ -32,7 +32,7 @@ const std::map<std::string, std::uint64_t>& pinned() {
         {"knot", 0xc4cfaa5be5e36861U},       {"ellipsoid", 0x586a6be3e626b2c2U},
         {"million", 0x9d40af5210107e6cU},    {"near_plane", 0x8fadf5d30a7465e0U},
         {"machine", 0xdb208ccc5ef7eb85U},    {"layers", 0x1a060abcf2d0d057U},
-        {"two_lights", 0x640cb8c0391767e8U},
+        {"two_lights", 0x640cb8c0391767e8U}, {"filtered_after", 0xf26cf756c160d7c0U},
     };
     return hashes;
 }

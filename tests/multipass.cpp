@@ -346,6 +346,20 @@ std::vector<std::uint8_t> picture(const Scene& scene, std::string_view isa) {
 
 class MultipassPictures : public testing::TestWithParam<Scene (*)(const Machine&)> {};
 
+// All passes of a material are shaded at the same four texels.
+TEST_P(MultipassPictures, HaveTheBitsOfOnePassFilteredAfter) {
+    const auto make = GetParam();
+    Machine machine = roomy();
+    const std::vector<std::uint8_t> before = picture(make(machine), "");
+    machine.filter_order = FilterOrder::after;
+    const std::vector<std::uint8_t> want = picture(make(machine), "");
+    EXPECT_NE(want, before);
+    machine = small(2, 4, false);
+    machine.multipass = true;
+    machine.filter_order = FilterOrder::after;
+    EXPECT_EQ(picture(make(machine), ""), want);
+}
+
 TEST_P(MultipassPictures, HaveTheBitsOfOnePass) {
     const auto make = GetParam();
     const std::vector<std::uint8_t> want = picture(make(roomy()), "reference");

@@ -67,7 +67,7 @@ background = [0.0, 0.25, 0.5, 1.0]
 format = "rgba16"
 [machine]
 profile = "nv2a"
-filter_order = "before"
+filter_order = "after"
 texture_units = 3
 general_stages = 5
 stage_constants = false
@@ -100,6 +100,7 @@ position = [4.0, 5.0, 6.0]
     EXPECT_FALSE(s.machine.stage_constants);
     EXPECT_EQ(s.machine.numbers, NumberModel::wide);
     EXPECT_EQ(s.machine.half_vector, HalfVector::pixel);
+    EXPECT_EQ(s.machine.filter_order, FilterOrder::after);
     EXPECT_EQ(s.machine.subpixel_bits, 6);
     EXPECT_FALSE(s.machine.snap_floor);
     EXPECT_EQ(s.camera.position, glm::vec3(1, 2, 3));
@@ -224,8 +225,7 @@ TEST_F(SceneFiles, VectorsOfAMachine) {
 
 TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
     const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
-    const std::vector<std::string> texts{"[machine]\nfilter_order = \"after\"\n",
-                                         texture + "mipmaps = \"toksvig\"\n"};
+    const std::vector<std::string> texts{texture + "mipmaps = \"toksvig\"\n"};
     for (const std::string& text : texts)
         EXPECT_SAYS(bad(text), "is not supported in this version");
 }

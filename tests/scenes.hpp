@@ -340,6 +340,36 @@ inline Scene two_lights() {
     return scene;
 }
 
+/// Filtering after combining: a floor with mip levels, blended where it lies between two, and a
+/// ball with the maps of a model, texels larger than pixels.
+inline Scene filtered_after() {
+    Scene scene = lit_scene(machine_profile("nv2a"), 160, 120);
+    scene.machine.filter_order = FilterOrder::after;
+    scene.camera.position = {0.0F, 0.6F, 1.0F};
+    scene.camera.focal_point = {0.0F, 0.2F, -3.0F};
+    const TexturePtr flat = streaks(96, 64, {210, 150, 90, 255}, 150);
+    Image8 texels(96, 64);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 96; ++x)
+            for (int c = 0; c < 4; ++c)
+                texels.at(x, y)[c] = static_cast<std::uint8_t>(flat->texel(0, 0, x, y, c));
+    auto floor = painted({0, 0, 0, 0});
+    floor->program->units = {std::make_shared<Texture>(
+        std::span<const Image8>(&texels, 1),
+        TextureDescription{.sampler = {Filter::linear_mipmap_linear}, .box_mipmaps = true})};
+    MeshData tiled = shapes::plane(7, 5);
+    for (glm::vec2& uv : tiled.uvs) uv *= 3.0F;
+    scene.objects.push_back({Mesh(tiled),
+                             floor,
+                             placement({0.0F, -0.2F, 0.0F}, {1.0F, 0.0F, 0.0F}, -90.0F, 20.0F),
+                             {}});
+    scene.objects.push_back({Mesh(shapes::sphere(24, 12)),
+                             brushed(),
+                             placement({0.1F, 0.3F, -0.6F}, {0.0F, 1.0F, 0.0F}, 20.0F, 0.5F),
+                             {}});
+    return scene;
+}
+
 struct NamedScene {
     std::string name;
     Scene (*make)();
@@ -351,7 +381,8 @@ inline const std::vector<NamedScene>& all() {
                                               {"near_plane", near_plane},
                                               {"machine", machine},
                                               {"layers", layers},
-                                              {"two_lights", two_lights}};
+                                              {"two_lights", two_lights},
+                                              {"filtered_after", filtered_after}};
     return list;
 }
 

@@ -241,6 +241,12 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             "by "
             "a cube map of N texels a side")
         ->type_name("WHERE");
+    verb.add_option_function<std::string>(
+            "--filter-order",
+            [&picture](const std::string& word) { picture.filter_order = filter_order_of(word); },
+            "Textures are filtered before the combiners, or their results afterwards: before or "
+            "after")
+        ->type_name("ORDER");
     add_camera_options(verb, picture.camera);
     verb.add_option_function<std::vector<std::string>>(
             "--light",

@@ -31,6 +31,7 @@ struct PictureOptions {
     std::optional<Model> model;      ///< instead of the materials' own
     bool multipass = false;
     std::optional<std::string> half_vector;  ///< of choose_half_vector
+    std::optional<FilterOrder> filter_order;
     CameraOptions camera;
     std::vector<Light> lights;  ///< instead of the scene's, if not empty
     std::optional<glm::vec4> background;

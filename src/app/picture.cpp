@@ -130,6 +130,7 @@ Scene load_picture(const PictureOptions& options) {
     replace_materials(options, scene);
     if (options.multipass) scene.machine.multipass = true;
     if (options.half_vector) choose_half_vector(scene.machine, *options.half_vector);
+    scene.machine.filter_order = options.filter_order.value_or(scene.machine.filter_order);
     if (options.size) {
         scene.width = options.size->x;
         scene.height = options.size->y;

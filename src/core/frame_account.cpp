@@ -47,6 +47,8 @@ constexpr Family kFamilies[] = {
     {"level_", FrameStage::texture},
     {"blend_levels", FrameStage::texture},
     {"hilo", FrameStage::texture},
+    {"texel_corner", FrameStage::texture},
+    {"filter_", FrameStage::texture},
     {"portion_", FrameStage::combine, true},
     {"final_", FrameStage::combine},
     {"store_", FrameStage::resolve},

@@ -39,6 +39,8 @@ constexpr std::array<std::pair<std::string_view, LerpRounding>, 2> kLerpRounding
     {{"once", LerpRounding::once}, {"each", LerpRounding::each}}};
 constexpr std::array<std::pair<std::string_view, MagnitudeFactor>, 2> kMagnitudeFactors{
     {{"unclamped", MagnitudeFactor::unclamped}, {"clamped", MagnitudeFactor::clamped}}};
+constexpr std::array<std::pair<std::string_view, FilterOrder>, 2> kFilterOrders{
+    {{"before", FilterOrder::before}, {"after", FilterOrder::after}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> kSnaps{
     {{"nearest", false}, {"floor", true}}};
 
@@ -84,7 +86,8 @@ void read_machine(const toml::table& table, Scene& scene) {
          "subpixel_bits", "snap", "half_vector", "half_vector_bits", "normalise_half_vector",
          "viewer", "tangent_frames"});
     Machine machine = read_profile(section);
-    section.accept_only("filter_order", "before");
+    machine.filter_order =
+        section.choice<FilterOrder>("filter_order", kFilterOrders).value_or(machine.filter_order);
     machine.texture_units = section.integer("texture_units", 1, 16).value_or(machine.texture_units);
     machine.general_stages =
         section.integer("general_stages", 0, 16).value_or(machine.general_stages);

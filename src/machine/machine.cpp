@@ -115,6 +115,13 @@ void choose_half_vector(Machine& machine, std::string_view word) {
     }
 }
 
+FilterOrder filter_order_of(std::string_view word) {
+    if (word == "before") return FilterOrder::before;
+    if (word == "after") return FilterOrder::after;
+    throw Error(ErrorCode::bad_option,
+                fmt::format("filter order '{}', expected before or after", word));
+}
+
 void Machine::validate() const {
     check_range("texture_units", texture_units, 1, 16);
     check_range("general_stages", general_stages, 0, 16);

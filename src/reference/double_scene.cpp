@@ -43,8 +43,16 @@ std::shared_ptr<const TextModel> text_of_material(const Material& material,
     return std::make_shared<TextModel>(material, material_layer(material, *layer_machine));
 }
 
-DoubleObject double_object(const Object& object, const std::optional<Machine>& layer_machine,
-                           bool machine_grid) {
+std::optional<TexelGrid> shaded_texels(const Material& material, FilterOrder order,
+                                       TexelSteps steps) {
+    if (order == FilterOrder::before) return std::nullopt;
+    const TexelSource source(material);
+    if (!source.varies()) return std::nullopt;
+    return TexelGrid{source.width(), source.height(), source.sampler(), steps};
+}
+
+DoubleObject double_object(const Object& object, FilterOrder order,
+                           const std::optional<Machine>& layer_machine, bool machine_grid) {
     static const Material kDefault;
     const Material& material = object.material ? *object.material : kDefault;
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
@@ -58,6 +66,7 @@ DoubleObject double_object(const Object& object, const std::optional<Machine>& l
             material.model,
             surface_of_material(material, layer_machine, machine_grid),
             text_of_material(material, layer_machine),
+            shaded_texels(material, order, machine_grid ? TexelSteps::machine : TexelSteps::exact),
             object.raster.depth_test,
             object.raster.depth_write,
             object.raster.cull};
@@ -81,7 +90,8 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
                               glm::dvec3(light.color) * static_cast<double>(light.intensity)});
     }
     for (const Object& object : scene.objects)
-        out.objects.push_back(double_object(object, layer_machine, machine_grid));
+        out.objects.push_back(
+            double_object(object, scene.machine.filter_order, layer_machine, machine_grid));
     return out;
 }
 

@@ -36,6 +36,8 @@ struct DoubleObject {
     Model model;
     std::shared_ptr<const SurfaceSampler> surface;  ///< null for Model::text
     std::shared_ptr<const TextModel> text;          ///< of Model::text
+    std::optional<TexelGrid> shaded_texels;  ///< FilterOrder::after: where it is shaded; nothing:
+                                             ///< at the sample
     DepthTest depth_test;
     bool depth_write;
     Cull cull;
@@ -59,10 +61,11 @@ struct DoubleScene {
     std::optional<CornerGrid> grid;  ///< nothing: corners are where they are
 };
 
-/// `scene` for a frame of that size. Materials are exact, or the layer that `layer_machine` works
-/// from, texel for texel, with `machine_grid` at its coordinates (not for texts). Throws
-/// Error{bad_program} for an object that has no reflectance model or is not drawn by depth alone,
-/// Error{bad_option} for a camera that sees nothing, and what material_layer throws.
+/// `scene` for a frame of that size, filtered in its machine's order. Materials are exact, or the
+/// layer that `layer_machine` works from, texel for texel, with `machine_grid` at its coordinates
+/// (not for texts). Throws Error{bad_program} for an object that has no reflectance model or is not
+/// drawn by depth alone, Error{bad_option} for a camera that sees nothing, and what material_layer
+/// throws.
 DoubleScene double_scene(const Scene& scene, int width, int height,
                          const std::optional<Machine>& layer_machine = {},
                          bool machine_grid = false);

@@ -52,4 +52,25 @@ Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& 
             linear ? v - top : 0.0};
 }
 
+std::array<WeightedPoint, 4> texel_centres(const glm::dvec2& uv, int width, int height,
+                                           const Sampler& sampler) {
+    const bool linear = sampler.mag_is_linear();
+    const glm::dvec2 size(width, height);
+    const glm::dvec2 place = glm::dvec2(in_texels(uv.x, width), in_texels(uv.y, height)) -
+                             glm::dvec2(linear ? 0.5 : 0.0);
+    const glm::dvec2 first = glm::floor(place);
+    const glm::dvec2 weight = linear ? place - first : glm::dvec2(0.0);
+    std::array<WeightedPoint, 4> points;
+    for (int k = 0; k < 4; ++k) {
+        const glm::dvec2 second(linear ? k & 1 : 0, linear ? k >> 1 : 0);
+        const glm::dvec2 centre = (first + second + 0.5) / size;
+        const double across = (k & 1) != 0 ? weight.x : 1.0 - weight.x;
+        const double down = (k >> 1) != 0 ? weight.y : 1.0 - weight.y;
+        // A few ulps on: whoever counts texels in steps must not find the step before.
+        points[static_cast<std::size_t>(k)] = {
+            centre + 0x1p-50 * glm::max(glm::abs(centre), glm::dvec2(1.0)), across * down};
+    }
+    return points;
+}
+
 }  // namespace burnish::reference

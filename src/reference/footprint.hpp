@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <burnish/texture.hpp>
 #include <glm/glm.hpp>
 
@@ -26,5 +27,16 @@ struct Footprint {
 /// (i + 1/2) / size; a nearest texel is all four. Which of the two is the sampler's choice for
 /// magnified textures. Coordinates that are not finite count as 0.
 Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& sampler);
+
+/// A texel centre and what of the result comes from there.
+struct WeightedPoint {
+    glm::dvec2 uv;
+    double weight;
+};
+
+/// The centres of the texels that footprint() weights, wherever wrapping puts them: what a filter
+/// after shading looks at. Of a nearest texel it is the centre four times, the first with weight 1.
+std::array<WeightedPoint, 4> texel_centres(const glm::dvec2& uv, int width, int height,
+                                           const Sampler& sampler);
 
 }  // namespace burnish::reference

@@ -10,6 +10,7 @@
 #include <limits>
 #include <new>
 
+#include "reference/footprint.hpp"
 #include "reference/shade.hpp"
 #include "reference/tangent_frame.hpp"
 
@@ -59,6 +60,21 @@ class ObjectShader {
         const TangentFrame frame = tangent_frame(point, m_tangent_frames);
         const glm::dvec3 position = point.mean(&DoubleVertex::position);
         const glm::dvec2 uv = point.mean(&DoubleVertex::uv);
+        if (!m_object.shaded_texels) return shaded(frame, position, uv);
+        const TexelGrid& grid = *m_object.shaded_texels;
+        glm::dvec3 mean(0.0);
+        for (const WeightedPoint& texel :
+             texel_centres(grid.coordinate(uv), grid.width, grid.height, grid.sampler))
+            if (texel.weight > 0.0) mean += shaded(frame, position, texel.uv) * texel.weight;
+        return mean;
+    }
+
+    [[nodiscard]] const DoubleObject& object() const { return m_object; }
+
+  private:
+    /// Of what stands at `uv` in the maps, lit at `position`.
+    [[nodiscard]] glm::dvec3 shaded(const TangentFrame& frame, const glm::dvec3& position,
+                                    const glm::dvec2& uv) const {
         const TextModel* text = m_object.text.get();
         const TextSurface own = text != nullptr ? text->at(uv) : TextSurface{};
         const Surface surface = text == nullptr ? m_object.surface->at(uv) : Surface{};
@@ -75,9 +91,6 @@ class ObjectShader {
         return sum;
     }
 
-    [[nodiscard]] const DoubleObject& object() const { return m_object; }
-
-  private:
     const DoubleObject& m_object;
     glm::dvec3 m_ambient;
     TangentFrames m_tangent_frames;

@@ -76,6 +76,12 @@ glm::dvec3 decoded(const LayerQuantity& quantity, const glm::dvec3& code) {
     return quantity.logarithmic ? glm::exp2(value) : value;
 }
 
+glm::dvec2 in_steps(TexelSteps how, int width, int height, const glm::dvec2& uv) {
+    if (how == TexelSteps::exact) return uv;
+    const glm::dvec2 steps = 256.0 * glm::dvec2(width, height);
+    return glm::floor(uv * steps) / steps;
+}
+
 /// Of materials without maps: the same everywhere.
 class ConstantSurface : public SurfaceSampler {
   public:
@@ -137,10 +143,8 @@ class LayerSurface : public SurfaceSampler {
 
   private:
     [[nodiscard]] glm::dvec2 coordinate(const LayerQuantity& quantity, const glm::dvec2& uv) const {
-        if (m_steps == TexelSteps::exact) return uv;
-        const glm::dvec2 steps =
-            256.0 * glm::dvec2(quantity.texture->width(), quantity.texture->height());
-        return glm::floor(uv * steps) / steps;
+        const Texture& texture = *quantity.texture;
+        return in_steps(m_steps, texture.width(), texture.height(), uv);
     }
 
     struct Textured {
@@ -172,6 +176,10 @@ glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv) {
                                                             quantity.components))
                          : quantity.constant;
     return quantity.components == 1 ? glm::dvec3(value.x) : value;
+}
+
+glm::dvec2 TexelGrid::coordinate(const glm::dvec2& uv) const {
+    return in_steps(steps, width, height, uv);
 }
 
 std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {

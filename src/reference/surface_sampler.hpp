@@ -22,6 +22,15 @@ glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv);
 /// Texel coordinates as they are, or in the steps of 1/256 texel that machines have, downwards.
 enum class TexelSteps { exact, machine };
 
+/// The texels of a material's finest map, at which a filter after shading shades.
+struct TexelGrid {
+    int width, height;
+    Sampler sampler;
+    TexelSteps steps;  ///< of the coordinates that weights come from
+
+    [[nodiscard]] glm::dvec2 coordinate(const glm::dvec2& uv) const;
+};
+
 /// A material at any point of its maps. Either kind filters quantities, not the maps they come
 /// from.
 class SurfaceSampler {

@@ -48,6 +48,18 @@ bool is_plain(const Texture& texture) {
     return flat && !is_hilo(texture.format()) && !needs_level_of_detail(texture);
 }
 
+/// Whether the sample is the very texel at a corner.
+bool is_texel_at_corner(const Texture& texture, const SampleCoordinates& at,
+                        const SamplePlan& plan) {
+    if (!plan.corners || !plan.corners->hold(at)) return false;
+    const Texture& finest = *plan.corners->finest;
+    const Sampler &a = texture.sampler(), &b = finest.sampler();
+    return texture.target() == finest.target() && texture.width() == finest.width() &&
+           texture.height() == finest.height() &&
+           texture.levels().size() == finest.levels().size() && a.filter == b.filter &&
+           a.mag_is_linear() == b.mag_is_linear() && a.lod_bias == b.lod_bias;
+}
+
 bool same(const AddressCtx& a, const AddressCtx& b) {
     return a.u == b.u && a.v == b.v && a.q == b.q && a.width == b.width && a.height == b.height &&
            a.pitch == b.pitch && a.mode_s == b.mode_s && a.mode_t == b.mode_t &&
@@ -93,6 +105,7 @@ std::uint8_t texel_shift(const Texture& texture) {
 void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, SamplePlan& plan,
                 std::vector<InputOp>& ops) {
     const Sampler& sampler = texture.sampler();
+    const bool linear = is_linear_within(sampler.filter) && !is_texel_at_corner(texture, at, plan);
     const AddressCtx address{
         at.s,
         texture.target() == TextureTarget::one_d ? at.s : at.t,
@@ -102,7 +115,7 @@ void plan_plain(const Texture& texture, const SampleCoordinates& at, int plane, 
         texture.pitch(),
         mode_of(sampler.wrap_s),
         mode_of(sampler.wrap_t),
-        static_cast<std::uint8_t>(is_linear_within(sampler.filter) ? 1 : 0),
+        static_cast<std::uint8_t>(linear ? 1 : 0),
         static_cast<std::uint8_t>(texture.target() == TextureTarget::rectangle ? 1 : 0),
         texel_shift(texture)};
     const bool shares = plan.last && at.interpolated && same(*plan.last, address);
@@ -131,9 +144,11 @@ bool same(const LevelAddressCtx& a, const LevelAddressCtx& b) {
     const auto same_level = [](const LevelAddressCtx::Level& x, const LevelAddressCtx::Level& y) {
         return x.width == y.width && x.height == y.height && x.offset == y.offset;
     };
-    return a.mode_s == b.mode_s && a.mode_t == b.mode_t && a.mag_linear == b.mag_linear &&
-           a.min_linear == b.min_linear && a.choice == b.choice && a.rectangle == b.rectangle &&
-           a.pitch == b.pitch && a.layer_bytes == b.layer_bytes && a.level_count == b.level_count &&
+    const bool at_corner = a.lambda == SampledCorners::kLevel;
+    return at_corner == (b.lambda == SampledCorners::kLevel) && a.mode_s == b.mode_s &&
+           a.mode_t == b.mode_t && a.mag_linear == b.mag_linear && a.min_linear == b.min_linear &&
+           a.choice == b.choice && a.rectangle == b.rectangle && a.pitch == b.pitch &&
+           a.layer_bytes == b.layer_bytes && a.level_count == b.level_count &&
            std::equal(a.levels, a.levels + a.level_count, b.levels, same_level);
 }
 
@@ -167,16 +182,20 @@ class LevelPlanner {
 
     void plan(const SampleTarget& target) {
         m_plan.uses_planes = true;
-        m_address.choice = takes_nearest_level(m_texture) ? LevelChoice::nearest
-                           : blends_levels(m_texture)     ? LevelChoice::floor
-                                                          : LevelChoice::base;
+        m_address.choice = choice();
+        const bool at_corner = is_texel_at_corner(m_texture, m_at, m_plan);
+        if (at_corner) {
+            m_address.choice = LevelChoice::floor;
+            m_address.lambda = SampledCorners::kLevel;
+            m_address.mag_linear = m_address.min_linear = 0;
+        }
         if (m_plan.levels && joins(*m_plan.levels)) {
             join(*m_plan.levels, target.registers);
             return;
         }
         m_plan.last.reset();
         m_plan.levels.reset();
-        if (needs_level_of_detail(m_texture)) plan_level_of_detail();
+        if (needs_level_of_detail(m_texture) && !at_corner) plan_level_of_detail();
         if (m_texture.target() == TextureTarget::cube) plan_face();
         const bool hilo = is_hilo(m_texture.format());
         const int out = hilo ? scratch(kFirst) : target.registers;
@@ -184,7 +203,7 @@ class LevelPlanner {
         plan_level(out);
         const std::size_t fetch = m_ops.size() - 1;
         std::optional<std::size_t> ceiling;
-        if (blends_levels(m_texture)) {
+        if (blends_levels(m_texture) && !at_corner) {
             const std::size_t blended = begin_blended(m_address.lambda);
             m_address.choice = LevelChoice::ceiling;
             plan_level(scratch(kSecond));
@@ -199,7 +218,34 @@ class LevelPlanner {
         if (may_share()) m_plan.levels = SharedLevels{first, m_at, bias(), fetch, ceiling};
     }
 
+    /// At the pixel's own coordinates.
+    TexelCornerCtx plan_corner(const SampledCorners& corners, int weight, int level) {
+        if (needs_level_of_detail(m_texture)) plan_level_of_detail();
+        TexelCornerCtx ctx{};
+        ctx.u = corners.s;
+        ctx.v = corners.t;
+        ctx.q = corners.q;
+        ctx.lambda = m_address.lambda;
+        ctx.to = corners.corner_s;
+        ctx.weight = weight;
+        ctx.level = level;
+        ctx.mode_s = m_address.mode_s;
+        ctx.mode_t = m_address.mode_t;
+        ctx.choice = choice();
+        ctx.mag_linear = m_address.mag_linear;
+        ctx.min_linear = m_address.min_linear;
+        ctx.rectangle = m_address.rectangle;
+        ctx.level_count = m_address.level_count;
+        std::copy_n(m_address.levels, m_address.level_count, ctx.levels);
+        return ctx;
+    }
+
   private:
+    [[nodiscard]] LevelChoice choice() const {
+        if (takes_nearest_level(m_texture)) return LevelChoice::nearest;
+        return blends_levels(m_texture) ? LevelChoice::floor : LevelChoice::base;
+    }
+
     // Scratch register planes.
     static constexpr int kFace = 0, kLambda = 1, kSliceWeight = 2, kFirst = 3, kSecond = 7,
                          kBehind = 23;
@@ -263,10 +309,13 @@ class LevelPlanner {
         const TextureLevel& base = m_texture.levels().front();
         const TextureTarget target = m_texture.target();
         const bool cube = target == TextureTarget::cube;
-        FootprintCtx footprint{m_at.s,
-                               m_address.v,
+        const bool at_corner = m_plan.corners && m_plan.corners->hold(m_at);
+        FootprintCtx footprint{at_corner ? m_plan.corners->s : m_at.s,
+                               at_corner ? m_plan.corners->t : m_address.v,
                                cube ? m_at.r : m_address.r,
-                               cube ? -1 : m_at.q,
+                               at_corner ? m_plan.corners->q
+                               : cube    ? -1
+                                         : m_at.q,
                                static_cast<std::uint8_t>(cube ? 1 : 0),
                                {static_cast<float>(base.width), static_cast<float>(base.height),
                                 static_cast<float>(base.depth)},
@@ -335,6 +384,12 @@ bool needs_level_of_detail(const Texture& texture) {
     const Sampler& sampler = texture.sampler();
     return blends_levels(texture) || takes_nearest_level(texture) ||
            is_linear_within(sampler.filter) != sampler.mag_is_linear();
+}
+
+TexelCornerCtx plan_texel_corner(const SampledCorners& corners, int weight, int level,
+                                 SamplePlan& plan, std::vector<InputOp>& ops) {
+    const SampleCoordinates at{corners.s, corners.t, -1, corners.q, true};
+    return LevelPlanner(*corners.finest, at, plan, ops).plan_corner(corners, weight, level);
 }
 
 void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,

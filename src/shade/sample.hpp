@@ -40,6 +40,21 @@ struct SharedLevels {
     std::optional<std::size_t> ceiling;  ///< with those of the level that is blended with it
 };
 
+/// Coordinates that stand at a texel centre of the finest map instead of at the pixel.
+struct SampledCorners {
+    /// As LevelAddressCtx::lambda: 256 * the level whose texels are taken. Its plane is known when
+    /// all programs are planned.
+    static constexpr int kLevel = -2;
+
+    const Texture* finest;
+    int s, t, q;             ///< planes of the pixel's coordinates, q may be -1
+    int corner_s, corner_t;  ///< planes of the corner's
+
+    [[nodiscard]] bool hold(const SampleCoordinates& at) const {
+        return at.s == corner_s && (at.t == corner_t || at.t < 0);
+    }
+};
+
 /// What samples of one shading share. All of them go to one list of operations.
 struct SamplePlan {
     NumberModel numbers;
@@ -49,12 +64,20 @@ struct SamplePlan {
     /// What the packet's texel addresses are for, if they are of interpolated coordinates.
     std::optional<AddressCtx> last{};
     std::optional<SharedLevels> levels{};  ///< the last sample with levels, if others may join it
+    std::optional<SampledCorners> corners{};
 };
 
 /// Whether the texture's filter looks at the level of detail.
 [[nodiscard]] bool needs_level_of_detail(const Texture& texture);
 
-/// Operations that sample a texture, added to `ops`. Samples in a row with the same interpolated
+/// The stage that finds the corners of `corners.finest`: weights go to two planes from `weight` on,
+/// the level to plane `level`. Operations that find the level of detail are added to `ops`.
+TexelCornerCtx plan_texel_corner(const SampledCorners& corners, int weight, int level,
+                                 SamplePlan& plan, std::vector<InputOp>& ops);
+
+/// Operations that sample a texture, added to `ops`. At a corner, maps that have the sides, levels
+/// and filter of the finest one give the texel that is there; others are filtered there, in the
+/// pixel's level of detail. Samples in a row with the same interpolated
 /// coordinates, sizes and sampler share addresses, levels of detail and, of bytes, up to four
 /// textures a fetch; of 3D textures, and of words with levels, each is alone. Throws
 /// Error{bad_program} for a texture of more coordinates than there are and for rgba16 in nine bits.

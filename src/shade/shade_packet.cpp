@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "shade/shading.hpp"
 
@@ -140,13 +142,65 @@ void run_pass(const EarlierPass& pass, const KernelTable& kernels, const Attribu
     }
 }
 
-/// Constant planes are in place unless another program ran before.
-void run_light(const LightShading& light, bool constants_in_place, const KernelTable& kernels,
-               const AttributesCtx& runs, Packet& packet) {
+/// Constant planes are in place unless another program ran before; so is what the first
+/// `inputs_in_place` input operations bring.
+void run_light(const LightShading& light, bool constants_in_place, std::size_t inputs_in_place,
+               const KernelTable& kernels, const AttributesCtx& runs, Packet& packet) {
     for (const EarlierPass& pass : light.earlier_passes) run_pass(pass, kernels, runs, packet);
     if (!constants_in_place || !light.earlier_passes.empty()) load_constants(light.program, packet);
-    feed_inputs(light.inputs, light.program.numbers, kernels, runs, packet);
+    const std::span<const InputOp> inputs = light.inputs;
+    feed_inputs(inputs.subspan(inputs_in_place), light.program.numbers, kernels, runs, packet);
     run_program(light, kernels, runs, packet);
+}
+
+/// The sum of all lights, once more after `again` for other coordinates of texels.
+void run_lights(const Shading& shading, bool again, const KernelTable& kernels,
+                const AttributesCtx& runs, Packet& packet) {
+    if (shading.further_lights.empty()) {
+        const bool alone = again && shading.earlier_passes.empty();
+        return run_light(shading, true, alone ? shading.fixed_inputs : 0, kernels, runs, packet);
+    }
+    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
+    const auto add = nine_bit ? kernels.portion_nine_bit : kernels.portion_wide;
+    std::fill_n(packet.planes + shading.zero_plane * kPacketSize, kPacketSize, std::int16_t{0});
+    for (const FurtherLight& light : shading.further_lights) {
+        run_light(light, false, 0, kernels, runs, packet);
+        add(packet, light.add);
+    }
+    run_light(shading, false, 0, kernels, runs, packet);
+    add(packet, shading.add_first);
+}
+
+/// The same at the four corners in the level that `corner` chooses, and the filter over them.
+void run_corners(const Shading& shading, TexelCornerCtx corner, const FilterCtx& filter, bool again,
+                 const KernelTable& kernels, const AttributesCtx& runs, Packet& packet) {
+    for (int k = 0; k < FilterCtx::kCorners; ++k) {
+        corner.right = static_cast<std::uint8_t>(k & 1);
+        corner.below = static_cast<std::uint8_t>(k >> 1);
+        kernels.texel_corner(packet, corner);
+        run_lights(shading, again || k > 0, kernels, runs, packet);
+        for (int c = 0; c < 4; ++c) {
+            const int from = shading.corners->colors[static_cast<std::size_t>(c)];
+            std::copy_n(packet.planes + from * kPacketSize, kPacketSize,
+                        packet.planes + (filter.corners + 4 * k + c) * kPacketSize);
+        }
+    }
+    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
+    (nine_bit ? kernels.filter_nine_bit : kernels.filter_wide)(packet, filter);
+}
+
+void filter_after(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
+                  Packet& packet) {
+    const CornerShading& corners = *shading.corners;
+    feed_inputs(corners.level, shading.program.numbers, kernels, runs, packet);
+    run_corners(shading, corners.corner, corners.filter, false, kernels, runs, packet);
+    if (!corners.blends_levels() || (codes_of(packet, corners.corner.lambda) & 255) == 0) return;
+    TexelCornerCtx above = corners.corner;
+    above.choice = LevelChoice::ceiling;
+    FilterCtx filter = corners.filter;
+    filter.out = corners.blend.b;
+    run_corners(shading, above, filter, true, kernels, runs, packet);
+    kernels.blend_levels(packet, corners.blend);
 }
 
 }  // namespace
@@ -154,18 +208,8 @@ void run_light(const LightShading& light, bool constants_in_place, const KernelT
 void shade_packet(const Shading& shading, const KernelTable& kernels, const AttributesCtx& runs,
                   Packet& packet) {
     kernels.attributes(packet, runs);
-    if (shading.further_lights.empty()) {
-        return run_light(shading, true, kernels, runs, packet);
-    }
-    const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
-    const auto add = nine_bit ? kernels.portion_nine_bit : kernels.portion_wide;
-    std::fill_n(packet.planes + shading.zero_plane * kPacketSize, kPacketSize, std::int16_t{0});
-    for (const FurtherLight& light : shading.further_lights) {
-        run_light(light, false, kernels, runs, packet);
-        add(packet, light.add);
-    }
-    run_light(shading, false, kernels, runs, packet);
-    add(packet, shading.add_first);
+    if (shading.corners) return filter_after(shading, kernels, runs, packet);
+    run_lights(shading, false, kernels, runs, packet);
 }
 
 }  // namespace burnish

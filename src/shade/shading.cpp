@@ -15,8 +15,6 @@ namespace burnish {
 
 namespace {
 
-constexpr int kUnitsWithCoordinates = 4;  // of raw vertices; further units take the first's
-
 /// A colour component that the program reads, and what it is to carry.
 struct ColorSlot {
     Register reg;
@@ -66,7 +64,7 @@ class Planner {
   public:
     /// @param units  of a pass: what they are in the whole material
     Planner(Shading& shading, const ProgramMaterial& material, const Machine& machine, bool is_mesh,
-            int light, std::span<const PassUnit> units)
+            int light, std::span<const PassUnit> units, const std::optional<FinestMap>& finest)
         : m_shading(shading),
           m_material(material),
           m_units(units),
@@ -83,6 +81,11 @@ class Planner {
         m_lighting.half_vector = m_lighting.light_vector = m_lighting.view_vector = -1;
         m_lighting.n_dot_l = m_lighting.h_dot_l = -1;
         m_slots = color_slots(material, shading.program);
+        if (!finest) return;
+        const auto at = [&](int component) { return coordinate_of_set(finest->set, component); };
+        m_sampling.corners = SampledCorners{
+            finest->texture, at(0), at(1), at(3), kCornerAttributes, kCornerAttributes + 1};
+        shading.corners = CornerShading{.map = *m_sampling.corners};
     }
 
     void plan() {
@@ -107,6 +110,7 @@ class Planner {
         std::vector<InputOp>& inputs = m_shading.inputs;
         inputs.insert(inputs.end(), m_cube_ops.begin(), m_cube_ops.end());
         inputs.insert(inputs.end(), m_vector_ops.begin(), m_vector_ops.end());
+        m_shading.fixed_inputs = inputs.size();
         inputs.insert(inputs.end(), encodings.begin(), encodings.end());
         for (PlannedUnit& unit : m_shading.units) unit.first_op += inputs.size();
         inputs.insert(inputs.end(), m_texture_ops.begin(), m_texture_ops.end());
@@ -225,7 +229,9 @@ class Planner {
     /// Attribute plane of a component of a unit's coordinates, -1 where it is that of (0, 0, 0, 1).
     int coordinate(int unit, int component) {
         if (!m_units.empty()) unit = m_units[static_cast<std::size_t>(unit)].material_unit;
-        const int set = unit < kUnitsWithCoordinates ? unit : 0;
+        return coordinate_of_set(unit < kCoordinateSets ? unit : 0, component);
+    }
+    int coordinate_of_set(int set, int component) {
         const CoordinateInput input = m_material.uv[static_cast<std::size_t>(set)];
         const bool own = input == CoordinateInput::uv || input == CoordinateInput::vertex;
         if (!m_is_mesh) {
@@ -341,7 +347,7 @@ class Planner {
 /// Binds and plans one pass. Attributes that earlier passes asked for keep their places.
 void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine& machine,
                bool is_mesh, int light, const Wanted& wanted,
-               std::span<const PassUnit> units = {}) {
+               const std::optional<FinestMap>& finest, std::span<const PassUnit> units = {}) {
     shading.unit_states = unit_states(material, machine);
     for (std::size_t i = 0; i < units.size(); ++i) {
         const std::uint32_t bit = 1U << i;
@@ -350,7 +356,7 @@ void plan_pass(Shading& shading, const ProgramMaterial& material, const Machine&
         shading.unit_states.black &= ~bit;
     }
     shading.program = bind(material.combiners, machine, shading.unit_states, wanted);
-    Planner(shading, material, machine, is_mesh, light, units).plan();
+    Planner(shading, material, machine, is_mesh, light, units, finest).plan();
 }
 
 /// The material as a pass has it: its own program, and the textures that it reads.
@@ -417,12 +423,12 @@ void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const 
 }
 
 void plan_passes(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                 bool is_mesh, int light) {
+                 bool is_mesh, int light, const std::optional<FinestMap>& finest) {
     const std::vector<ProgramPass> passes = passes_of(material, machine);
     FramePlanes planes{0, 0};  // behind the planes of all passes
     bool quads = false;
     for (const ProgramPass& pass : passes) {
-        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, light, {},
+        plan_pass(shading, material_of_pass(material, pass), machine, is_mesh, light, {}, finest,
                   pass.units);
         planes.first = std::max(planes.first, shading.program.plane_count);
         quads |= shading.quads;
@@ -442,14 +448,15 @@ void plan_passes(Shading& shading, const ProgramMaterial& material, const Machin
 
 /// Passes and inputs of one light. Attributes that other lights asked for keep their places.
 void plan_light(Shading& shading, const ProgramMaterial& material, const Machine& machine,
-                bool is_mesh, int light, const Wanted& wanted) {
+                bool is_mesh, int light, const Wanted& wanted,
+                const std::optional<FinestMap>& finest) {
     shading.textures.insert(shading.textures.end(), material.units.begin(), material.units.end());
     shading.earlier_passes.clear();
     if (machine.multipass && !has_room_for(machine, material)) {
         // Registers between the passes are those of the whole program.
         const bool inside = wanted.everything || wanted.reg;
-        if (!inside) return plan_passes(shading, material, machine, is_mesh, light);
-        return plan_pass(shading, material, with_room(machine), is_mesh, light, wanted);
+        if (!inside) return plan_passes(shading, material, machine, is_mesh, light, finest);
+        return plan_pass(shading, material, with_room(machine), is_mesh, light, wanted, finest);
     }
     if (material.units.size() > static_cast<std::size_t>(machine.texture_units)) {
         const bool cube = machine.half_vector == HalfVector::cube;
@@ -458,7 +465,7 @@ void plan_light(Shading& shading, const ProgramMaterial& material, const Machine
                                 machine.name, machine.texture_units,
                                 cube ? " besides the one that normalises half vectors" : ""));
     }
-    plan_pass(shading, material, machine, is_mesh, light, wanted);
+    plan_pass(shading, material, machine, is_mesh, light, wanted, finest);
 }
 
 /// sum = a + b, at most 1: products with 1 are exact in both number models.
@@ -505,6 +512,15 @@ void plan_sums(Shading& shading) {
     shading.program.plane_count = planes;
 }
 
+/// Of FilterOrder::after: the programs of all lights are shaded at the same places.
+std::optional<FinestMap> map_of_corners(std::span<const ProgramMaterial> programs,
+                                        const Machine& machine, bool is_mesh) {
+    if (machine.filter_order == FilterOrder::before) return std::nullopt;
+    for (const ProgramMaterial& program : programs)
+        if (const auto finest = finest_map(program, machine, is_mesh)) return finest;
+    return std::nullopt;
+}
+
 }  // namespace
 
 void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
@@ -514,16 +530,19 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     shading.varying_list.clear();
     shading.further_lights.clear();
     shading.reads_light = shading.reads_frame = false;
+    shading.corners.reset();
+    const std::optional<FinestMap> finest = map_of_corners(programs, machine, is_mesh);
     bool quads = false;
     for (std::size_t i = 1; i < programs.size(); ++i) {
-        plan_light(shading, programs[i], machine, is_mesh, static_cast<int>(i), wanted);
+        plan_light(shading, programs[i], machine, is_mesh, static_cast<int>(i), wanted, finest);
         quads |= shading.quads;
         shading.further_lights.push_back({std::move(static_cast<LightShading&>(shading)), {}});
     }
-    plan_light(shading, programs.front(), machine, is_mesh, 0, wanted);
+    plan_light(shading, programs.front(), machine, is_mesh, 0, wanted, finest);
     shading.quads |= quads;
     shading.result = shading.program.result;
     if (programs.size() > 1) plan_sums(shading);
+    if (shading.corners) plan_corners(shading);
     const bool flat = !shading.reads_frame && shading.varying_list.empty();
     if (flat && !wanted.everything) shading.frame_attributes = 0;
 }

@@ -4,12 +4,14 @@
 #include <burnish/scene.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/varyings.hpp"
 #include "kernels/kernel_table.hpp"
 #include "machine/bind.hpp"
+#include "shade/corners.hpp"
 #include "shade/texture_units.hpp"
 
 namespace burnish {
@@ -21,8 +23,10 @@ inline constexpr std::size_t kMaxLights = 8;
 inline constexpr int kMaxInterpolated = kUvAttributes + 6 + static_cast<int>(kMaxLights) * 11;
 /// The three vectors, n.l and h.l that the lighting stage adds behind them.
 inline constexpr int kLightingAttributes = kMaxInterpolated;
+/// Coordinates at a texel centre, s and t.
+inline constexpr int kCornerAttributes = kLightingAttributes + 11;
 /// Scratch planes of samples.
-inline constexpr int kSampleScratch = kLightingAttributes + 11;
+inline constexpr int kSampleScratch = kCornerAttributes + 2;
 /// What texture units compute on the way to their coordinates lies behind these.
 inline constexpr int kUnitAttributes = kSampleScratch + kSampleAttributes;
 inline constexpr int kMaxAttributes = kUnitAttributes + 121;
@@ -46,6 +50,7 @@ struct EarlierPass {
 struct LightShading {
     std::vector<EarlierPass> earlier_passes;  ///< in front of inputs and program, the last pass
     std::vector<InputOp> inputs;
+    std::size_t fixed_inputs = 0;  ///< the first ones, which no texture has part in
     BoundProgram program;
     std::vector<StageSampling> stage_fetches;  ///< of program.fetches, in their order
 };
@@ -76,11 +81,12 @@ struct Shading : LightShading {
     bool reads_light = false;  ///< the inputs depend on the light
     bool reads_frame = false;  ///< or on attributes of the frames
     std::vector<FurtherLight> further_lights;
-    PortionCtx add_first{};              ///< the first light to the further ones
-    int zero_plane = -1;                 ///< for sums of lights: must hold 0
-    std::array<std::int16_t, 4> result;  ///< planes of r, g, b, a
-    TexturePtr half_cube;                ///< of HalfVector::cube; null: made when it is needed
-    std::vector<TexturePtr> textures;    ///< keeps the texels alive
+    PortionCtx add_first{};                ///< the first light to the further ones
+    int zero_plane = -1;                   ///< for sums of lights: must hold 0
+    std::optional<CornerShading> corners;  ///< of FilterOrder::after, where a map is filtered
+    std::array<std::int16_t, 4> result;    ///< planes of r, g, b, a
+    TexturePtr half_cube;                  ///< of HalfVector::cube; null: made when it is needed
+    std::vector<TexturePtr> textures;      ///< keeps the texels alive
 
     [[nodiscard]] int interpolated() const {
         return frame_attributes + static_cast<int>(varying_list.size());

@@ -164,6 +164,20 @@ class UnitPlanner {
         const int plane = m_coordinates(i, component);
         return plane >= 0 ? plane : constant(component == 3 ? 1.0F : 0.0F);
     }
+    /// The same of a sample: at a corner, if its coordinates are those of the finest map.
+    int sampled_coordinate(int i, int component) {
+        const int plane = m_coordinates(i, component);
+        const std::optional<SampledCorners>& corners = m_sampling.corners;
+        const bool moves = corners && plane >= 0 && m_coordinates(i, 0) == corners->s;
+        if (moves && component == 0) return corners->corner_s;
+        if (moves && component == 1) return corners->corner_t;
+        if (moves && component == 3) return -1;
+        return plane;
+    }
+    int sampled(int i, int component) {
+        const int plane = sampled_coordinate(i, component);
+        return plane >= 0 ? plane : constant(component == 3 ? 1.0F : 0.0F);
+    }
     Vector str(int i) { return {coordinate(i, 0), coordinate(i, 1), coordinate(i, 2)}; }
 
     /// A component of a texel as a number, decoded once.
@@ -213,7 +227,10 @@ class UnitPlanner {
         if (is_dimmed(operation(i))) dim(i, color, out);
     }
 
-    [[nodiscard]] static bool interpolated(int attribute) { return attribute < kMaxInterpolated; }
+    [[nodiscard]] static bool interpolated(int attribute) {
+        return attribute < kMaxInterpolated || attribute == kCornerAttributes ||
+               attribute == kCornerAttributes + 1;
+    }
 
     void dim(int i, int from, int to) {
         const bool bytes = m_bump_source == BumpSource::rgba8;
@@ -237,11 +254,11 @@ class UnitPlanner {
             case Op::none:
                 return;
             case Op::texture_1d:
-                return sample(i, {coordinate(i, 0), -1, -1, m_coordinates(i, 3), true});
+                return sample(i, {sampled(i, 0), -1, -1, sampled_coordinate(i, 3), true});
             case Op::texture_2d:
             case Op::texture_rectangle:
                 return sample(i,
-                              {coordinate(i, 0), coordinate(i, 1), -1, m_coordinates(i, 3), true});
+                              {sampled(i, 0), sampled(i, 1), -1, sampled_coordinate(i, 3), true});
             case Op::texture_3d:  // without an r, plan_sample refuses
                 return sample(i, {coordinate(i, 0), coordinate(i, 1), m_coordinates(i, 2),
                                   m_coordinates(i, 3), true});
@@ -292,9 +309,9 @@ class UnitPlanner {
         const TextureUnit& u = unit(i);
         const Texel& from = previous(i);
         OffsetCtx ctx{};
-        ctx.s = coordinate(i, 0);
-        ctx.t = coordinate(i, 1);
-        ctx.q = is_projective_offset(u.operation) ? m_coordinates(i, 3) : -1;
+        ctx.s = sampled(i, 0);
+        ctx.t = sampled(i, 1);
+        ctx.q = is_projective_offset(u.operation) ? sampled_coordinate(i, 3) : -1;
         if (is_hilo_offset(u.operation)) {
             ctx.ds = from.values;
             ctx.dt = from.values + 1;
@@ -468,6 +485,33 @@ class UnitPlanner {
 };
 
 }  // namespace
+
+std::optional<FinestMap> finest_map(const ProgramMaterial& material, const Machine& machine,
+                                    bool is_mesh) {
+    std::uint32_t tables = 0;
+    for (const GeneralStage& stage : material.combiners.stages)
+        for (const StageFetch& fetch : stage.fetches)
+            tables |=
+                1U << (static_cast<int>(fetch.destination) - static_cast<int>(Register::tex0));
+    const auto units = active_units(material, machine);
+    std::optional<FinestMap> finest;
+    const auto texels = [](const Texture& t) { return std::int64_t{t.width()} * t.height(); };
+    for (std::size_t i = 0; i < material.units.size(); ++i) {
+        const Op op = units.at(i).operation;
+        if ((op != Op::texture_2d && op != Op::texture_rectangle) || (tables >> i & 1) != 0)
+            continue;
+        const int set = i < kCoordinateSets ? static_cast<int>(i) : 0;
+        const CoordinateInput input = material.uv[static_cast<std::size_t>(set)];
+        const bool of_vertices =
+            input == CoordinateInput::uv || (input == CoordinateInput::vertex && !is_mesh);
+        const Texture& texture = *material.units[i];
+        const bool linear =
+            is_linear_within(texture.sampler().filter) || texture.sampler().mag_is_linear();
+        if (!of_vertices || !linear) continue;
+        if (!finest || texels(texture) > texels(*finest->texture)) finest = {&texture, set};
+    }
+    return finest;
+}
 
 UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) {
     UnitStates states;

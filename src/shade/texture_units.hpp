@@ -3,6 +3,7 @@
 #include <burnish/scene.hpp>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "machine/bind.hpp"
@@ -14,9 +15,24 @@ namespace burnish {
 /// Throws Error{bad_program} for a texture shader that `machine` cannot run.
 UnitStates unit_states(const ProgramMaterial& material, const Machine& machine);
 
+/// Units with coordinates of their own; further ones take the first's.
+inline constexpr int kCoordinateSets = 4;
+
 /// Attribute plane of component 0 .. 3 (s, t, r, q) of a unit's coordinates; -1 where it is that of
 /// (0, 0, 0, 1) everywhere.
 using CoordinatePlane = std::function<int(int unit, int component)>;
+
+/// The map whose texels are shaded one by one where the filter comes after the program.
+struct FinestMap {
+    const Texture* texture;
+    int set;  ///< of ProgramMaterial::uv: the coordinates
+};
+
+/// Of the flat maps with a linear filter that units fetch at the coordinates of vertices: the one
+/// with most texels, the first of equals. On a mesh these are its uv. Tables of fetches between
+/// stages do not count.
+std::optional<FinestMap> finest_map(const ProgramMaterial& material, const Machine& machine,
+                                    bool is_mesh);
 
 /// Where a unit's texel is, before any dimming.
 struct PlannedUnit {

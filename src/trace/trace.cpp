@@ -108,6 +108,11 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
                     "a trace with profile double, which has no registers; expected one of the "
                     "machines");
     }
+    if (scene.machine.filter_order == FilterOrder::after) {
+        throw Error(ErrorCode::bad_option,
+                    "a trace with filter_order = after, which runs programs at four texels; "
+                    "expected filter_order = before");
+    }
     if (scene.format == PixelFormat::depth32f) {
         throw Error(ErrorCode::bad_option,
                     "a trace of a scene with format depth32f, expected a format of colours");

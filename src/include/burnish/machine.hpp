@@ -68,6 +68,12 @@ enum class MagnitudeFactor {
     clamped,    ///< to [0, 1], as NV_texture_shader has it
 };
 
+/// Whether texels are filtered before the program or its results are, afterwards (docs/numbers.md).
+enum class FilterOrder {
+    before,  ///< every map by itself, then combiners once: what hardware does
+    after,   ///< the program at the four texel centres around, then a filter over its results
+};
+
 /// What texture units can do before the combiners (burnish/texture_shader.hpp).
 enum class TextureOperations {
     plain,  ///< fetches by interpolated coordinates from 1D, 2D, rectangle and cube map textures
@@ -91,6 +97,7 @@ struct Machine {
     ExpandRule expand = ExpandRule::hardware;
     Halving halving = Halving::half_up;
     LerpRounding lerp_rounding = LerpRounding::once;
+    FilterOrder filter_order = FilterOrder::before;
     /// Programs that need more than the machine has are split into passes, where they can be
     /// (burnish/multipass.hpp), instead of refused.
     bool multipass = false;
@@ -106,7 +113,8 @@ struct Machine {
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
     /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
-    /// the fields above, `viewer` and `tangent_frames` count, and `half_vector` must be `pixel`.
+    /// the fields above, `viewer`, `tangent_frames` and `filter_order` count, and `half_vector`
+    /// must be `pixel`.
     bool double_precision = false;
 
     /// Throws Error{bad_option} for a field outside its range, for a choice of the nine-bit model
@@ -122,6 +130,9 @@ struct Machine {
 /// Sets half_vector from "pixel", "vertex" or "cube:N", and its size from N.
 /// Throws Error{bad_option} for anything else.
 void choose_half_vector(Machine& machine, std::string_view word);
+
+/// "before" or "after". Throws Error{bad_option} for anything else.
+FilterOrder filter_order_of(std::string_view word);
 
 /// The names that `machine_profile` knows: machines in order of age, then "double".
 std::vector<std::string_view> machine_profile_names();
