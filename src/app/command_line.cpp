@@ -330,9 +330,11 @@ Threshold parse_threshold(const std::string& text) {
 metrics::Exposures parse_exposures(const std::string& text) {
     const std::vector<double> v = parse_numbers<double>("--exposures", text, 2, 3);
     const double count = v.size() == 3 ? v[2] : std::max(2.0, std::ceil(v[1] - v[0]));
-    if (count != std::floor(count) || count < 1.0 || count > metrics::kMostExposures)
-        fail(fmt::format("--exposures {}, expected START,STOP or START,STOP,COUNT with at most {}",
-                         text, metrics::kMostExposures));
+    if (v[1] < v[0] || count != std::floor(count) || count < 1.0 || count > metrics::kMostExposures)
+        fail(fmt::format(
+            "--exposures {}, expected START,STOP[,COUNT] with START <= STOP and 1 .. {} "
+            "exposures",
+            text, metrics::kMostExposures));
     return {v[0], v[1], static_cast<int>(count)};
 }
 
