@@ -347,7 +347,10 @@ TEST(ErrorPictures, DifferencesAreGreyWhereThereIsNone) {
     EXPECT_EQ(shown.rgba, (std::vector<std::uint8_t>{128, 192, 1, 255}));  // 128 + 127 * .5, - 127
     const Image8 size = difference_image(got, want, 2.0, DifferenceSign::ignored);
     EXPECT_EQ(size.rgba, (std::vector<std::uint8_t>{0, 128, 255, 255}));
-    EXPECT_EQ(get(difference_frame(got, want), 0, 0), glm::vec4(0.0F, 0.25F, -0.5F, 1.0F));
+    EXPECT_EQ(get(difference_frame(got, want, DifferenceSign::shown), 0, 0),
+              glm::vec4(0.0F, 0.25F, -0.5F, 1.0F));
+    EXPECT_EQ(get(difference_frame(got, want, DifferenceSign::ignored), 0, 0),
+              glm::vec4(0.0F, 0.25F, 0.5F, 1.0F));
 }
 
 }  // namespace

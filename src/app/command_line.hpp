@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "metrics/metrics.hpp"
+
 /// What the user asked for, as plain data; only command_line.cpp knows the parser.
 namespace burnish::app {
 
@@ -67,6 +69,22 @@ struct BenchOptions {
     std::optional<Shown> shown;  ///< --aov
     bool balance = false;        ///< instead of times
     bool json = false;
+};
+
+struct Threshold {
+    metrics::Metric metric;
+    double limit;
+};
+
+struct CompareOptions {
+    std::filesystem::path test, reference;
+    metrics::CompareOptions measured;
+    std::vector<Threshold> thresholds;
+    std::filesystem::path difference, absolute_difference, heat_map;  ///< empty: none
+    double gain = 1.0;                                                ///< of differences as bytes
+    int threads = 0;
+    bool json = false;
+    bool quiet = false;
 };
 
 struct CompileOptions {
@@ -135,9 +153,9 @@ struct PrintText {
 };
 
 using Command =
-    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                 CompileModelOptions, InfoOptions, BakeBrushedOptions, BakeMaterialOptions,
-                 BakeAnisotropyOptions, BakeMeshOptions, ExperimentOptions>;
+    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
+                 CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
+                 BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions, ExperimentOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

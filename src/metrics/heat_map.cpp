@@ -66,12 +66,15 @@ Framebuffer map_frame(const Plane& map) {
     return frame;
 }
 
-Framebuffer difference_frame(const Framebuffer& test, const Framebuffer& reference) {
+Framebuffer difference_frame(const Framebuffer& test, const Framebuffer& reference,
+                             DifferenceSign sign) {
     Framebuffer frame(reference.width(), reference.height(), PixelFormat::rgba32f);
     for (int y = 0; y < frame.height(); ++y) {
         auto* const row = reinterpret_cast<glm::vec4*>(frame.row(y));
-        for (int x = 0; x < frame.width(); ++x)
-            row[x] = glm::vec4(glm::vec3(difference(test, reference, x, y)), 1.0F);
+        for (int x = 0; x < frame.width(); ++x) {
+            const glm::dvec3 d = difference(test, reference, x, y);
+            row[x] = glm::vec4(glm::vec3(sign == DifferenceSign::shown ? d : glm::abs(d)), 1.0F);
+        }
     }
     return frame;
 }

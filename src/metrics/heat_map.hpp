@@ -16,14 +16,17 @@ Image8 heat_map(const Plane& map);
 /// The numbers of a map as they are, a frame of format depth32f.
 Framebuffer map_frame(const Plane& map);
 
-/// test - reference, rgba32f with alpha 1. Both frames are rgba32f and of one size.
-Framebuffer difference_frame(const Framebuffer& test, const Framebuffer& reference);
-
 enum class DifferenceSign {
-    shown,    ///< 128 where the pictures are the same, more where the test is brighter
-    ignored,  ///< 0 where the pictures are the same
+    shown,    ///< test - reference
+    ignored,  ///< its absolute value
 };
-/// The same times `gain` as bytes, a difference of 1 being 127 or 255 of them. NaN is as 0.
+
+/// Differences as they are, rgba32f with alpha 1. Both frames are rgba32f and of one size.
+Framebuffer difference_frame(const Framebuffer& test, const Framebuffer& reference,
+                             DifferenceSign sign);
+
+/// Differences times `gain` as bytes: from 1 for -1 over 128 for 0 to 255 for 1, or without sign
+/// from 0 to 255. NaN is as 0.
 Image8 difference_image(const Framebuffer& test, const Framebuffer& reference, double gain,
                         DifferenceSign sign);
 
