@@ -4,6 +4,8 @@
 #include <array>
 #include <burnish/error.hpp>
 #include <burnish/shapes.hpp>
+#include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/nearest.hpp"
@@ -144,6 +146,30 @@ RawVertices read_vertices(const Section& section) {
     return raw;
 }
 
+/// u runs from the middle, where it is 0, to both sides: two charts that mirror each other. The
+/// vertices in the middle become two, with a tangent each; the surface stays as it is.
+MeshData mirrored_charts(const MeshData& whole) {
+    MeshData data;
+    std::array<std::map<std::uint32_t, std::uint32_t>, 2> copies;
+    for (std::size_t corner = 0; corner < whole.indices.size(); ++corner) {
+        const std::size_t first = corner - corner % 3;
+        float u = 0.0F;
+        for (std::size_t k = 0; k < 3; ++k) u += whole.uvs[whole.indices[first + k]].x;
+        const bool right = u > 1.5F;
+        const std::uint32_t from = whole.indices[corner];
+        const auto [at, is_new] =
+            copies[right ? 1 : 0].emplace(from, static_cast<std::uint32_t>(data.positions.size()));
+        data.indices.push_back(at->second);
+        if (!is_new) continue;
+        data.positions.push_back(whole.positions[from]);
+        data.normals.push_back(whole.normals[from]);
+        data.tangents.push_back(right ? whole.tangents[from] : -whole.tangents[from]);
+        const glm::vec2 uv = whole.uvs[from];
+        data.uvs.emplace_back(std::abs(2.0F * uv.x - 1.0F), uv.y);
+    }
+    return data;
+}
+
 /// A mesh made by formula instead of read.
 Mesh make_shape(const Section& section) {
     constexpr int kMostColumns = 2048;
@@ -155,6 +181,7 @@ Mesh make_shape(const Section& section) {
         section.fail_unknown_word("shape", name, known);
     try {
         MeshData data = shapes::named(name, columns, rows);
+        if (section.boolean("mirror_u").value_or(false)) data = mirrored_charts(data);
         if (const auto repeat = section.numbers("uv_repeat", 2, 2, kPositive)) {
             for (glm::vec2& uv : data.uvs) uv *= glm::vec2((*repeat)[0], (*repeat)[1]);
         }
@@ -211,7 +238,7 @@ void require_one_geometry(const Section& section) {
                                  section.label(), sources));
     for (const std::string_view key : {"space", "primitive"})
         section.refuse_without(key, "vertices");
-    for (const std::string_view key : {"columns", "rows", "uv_repeat"})
+    for (const std::string_view key : {"columns", "rows", "uv_repeat", "mirror_u"})
         section.refuse_without(key, "shape");
 }
 
@@ -223,9 +250,9 @@ std::vector<Object> read_objects(const Section& root, const MaterialTable& mater
     std::vector<Object> objects;
     for (const toml::table* table : root.tables("objects")) {
         const Section section(*table, "[[objects]]",
-                              {"mesh", "shape", "columns", "rows", "uv_repeat", "material",
-                               "translate", "rotate", "scale", "space", "primitive", "vertices",
-                               "depth_test", "depth_write", "cull", "blend"});
+                              {"mesh", "shape", "columns", "rows", "uv_repeat", "mirror_u",
+                               "material", "translate", "rotate", "scale", "space", "primitive",
+                               "vertices", "depth_test", "depth_write", "cull", "blend"});
         require_one_geometry(section);
         Object object;
         object.raster = read_raster(section);
