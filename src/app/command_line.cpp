@@ -301,8 +301,23 @@ void add_trace(CLI::App& verb, TraceOptions& options) {
     verb.add_option_function<std::string>(
             "--pixel", [&options](const std::string& text) { options.pixel = parse_pixel(text); },
             "Column and row of the pixel; 0,0 is the upper left corner")
-        ->required()
         ->type_name("X,Y");
+    CLI::Option* by_stage = verb.add_flag("--by-stage", options.by_stage,
+                                          "Instead of registers: how much of the picture's error, "
+                                          "or of the pixel's, each stage makes");
+    verb.add_option("--bits", options.bits,
+                    "With --by-stage: bits of all stages, N, or of some, half_vector=8,combiners=9,"
+                    "stage0=exact,..; default: the machine's")
+        ->needs(by_stage)
+        ->type_name("BITS");
+    verb.add_option("--rounding", options.rounding,
+                    "With --by-stage: nearest, truncate, shift8 or stochastic")
+        ->needs(by_stage)
+        ->type_name("HOW");
+    verb.add_option("-o,--output", options.output,
+                    "With --by-stage: a waterfall as SVG, by gnuplot")
+        ->needs(by_stage)
+        ->type_name("FILE.svg");
     verb.add_flag("--json", options.json, "Print JSON");
 }
 
@@ -597,8 +612,8 @@ struct Parser {
     ExperimentOptions experiment;
     std::vector<std::string> experiment_words;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
-    CLI::App* trace_verb =
-        app.add_subcommand("trace", "Every register after every stage at one pixel");
+    CLI::App* trace_verb = app.add_subcommand(
+        "trace", "Every register after every stage at one pixel, or the picture's error by stage");
     CLI::App* bake_verb = app.add_subcommand("bake", "Material maps and test meshes as files");
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
     CLI::App* material_verb = bake_verb->add_subcommand(
@@ -659,7 +674,10 @@ struct Parser {
 
     Command chosen() const {
         if (render_verb->parsed()) return render;
-        if (trace_verb->parsed()) return trace;
+        if (trace_verb->parsed()) {
+            if (!trace.pixel && !trace.by_stage) fail("trace: expected --pixel X,Y or --by-stage");
+            return trace;
+        }
         if (bench_verb->parsed()) return bench;
         if (compare_verb->parsed()) return compare;
         if (compile_verb->parsed()) return what_to_compile();

@@ -59,7 +59,11 @@ struct RenderOptions {
 
 struct TraceOptions {
     PictureOptions picture;
-    glm::ivec2 pixel{0, 0};  ///< not negative
+    std::optional<glm::ivec2> pixel;  ///< not negative; there is one unless by_stage
+    bool by_stage = false;            ///< where the error comes from, instead of registers
+    std::string bits;                 ///< of lab::set_stage_bits, after the machine's own
+    std::string rounding;             ///< likewise; empty: the machine's
+    std::filesystem::path output;     ///< a waterfall as SVG; empty: none
     bool json = false;
 };
 
