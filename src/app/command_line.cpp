@@ -110,6 +110,20 @@ Model known_model(const std::string& name) {
     return model ? *model : *model_named(known_word("--model", name, model_names()));
 }
 
+/// METHOD or METHOD:BITS.
+MaterialMipmaps parse_mipmaps(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::string name = text.substr(0, colon);
+    MaterialMipmaps mipmaps;
+    mipmaps.method = *mip_method_named(known_word("--mipmaps", name, mip_method_names()));
+    if (colon == std::string::npos) return mipmaps;
+    const std::string bits = text.substr(colon + 1);
+    if (bits != "8" && bits != "16" && bits != "32")
+        fail(fmt::format("--mipmaps {}, expected 8, 16 or 32 bits after the colon", text));
+    mipmaps.bits = std::stoi(bits);
+    return mipmaps;
+}
+
 Register parse_register(const std::string& name) {
     std::vector<std::string_view> known;
     for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
@@ -228,6 +242,13 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             "--model", [&picture](const std::string& name) { picture.model = known_model(name); },
             "Reflectance model of every mesh, instead of its material's; `burnish info` lists them")
         ->type_name("NAME");
+    verb.add_option_function<std::string>(
+            "--mipmaps",
+            [&picture](const std::string& text) { picture.mipmaps = parse_mipmaps(text); },
+            "How mip levels of every reflectance model's parameters are made: none, box, "
+            "normalize, mag, toksvig, clean, lean, moments, moments_unweighted; their moments "
+            "stored in 8, 16 or 32 bits")
+        ->type_name("METHOD[:BITS]");
     verb.add_flag("--multipass", picture.multipass,
                   "Split programs that need more than the machine has into passes");
     verb.add_option_function<std::string>(

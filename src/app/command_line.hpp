@@ -29,6 +29,8 @@ struct PictureOptions {
     std::optional<std::string> machine;
     std::filesystem::path material;  ///< instead of the meshes' own, if not empty
     std::optional<Model> model;      ///< instead of the materials' own
+    /// Instead of the materials' own.
+    std::optional<MaterialMipmaps> mipmaps;
     bool multipass = false;
     std::optional<std::string> half_vector;  ///< of choose_half_vector
     CameraOptions camera;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "models/map_sampler.hpp"
+#include "models/mips/parameter_mips.hpp"
 #include "models/srgb.hpp"
 #include "models/vector_encoding.hpp"
 
@@ -41,6 +42,15 @@ double channel(const Texture& map, int x, int y, int c) {
 double component(const Texture& map, VectorEncoding encoding, int x, int y, int c) {
     if (x < 0 || map.is_signed(c)) return channel(map, x, y, c);
     return decode_vector_code(encoding, map.texel(0, 0, x, y, c), has_words(map.format()) ? 16 : 8);
+}
+
+/// `filter` for a material with these mip levels: one that blends them if it knew none.
+Filter with_levels(Filter filter, const MaterialMipmaps& mipmaps) {
+    const bool linear = is_linear_within(filter);
+    if (mipmaps.method == MipMethod::none) return linear ? Filter::linear : Filter::nearest;
+    if (filter == Filter::linear) return Filter::linear_mipmap_linear;
+    if (filter == Filter::nearest) return Filter::nearest_mipmap_linear;
+    return filter;
 }
 
 }  // namespace
@@ -82,7 +92,7 @@ TexelSource::TexelSource(const Material& material) : m_material(material) {
                 ErrorCode::bad_program,
                 fmt::format("material '{}': {} is not two-dimensional", material.name, name));
         m_varies = true;
-        m_has_levels |= map->levels().size() > 1;
+        m_averages_layer |= map->levels().size() > 1 && !material.mipmaps;
         const std::int64_t texels = static_cast<std::int64_t>(map->width()) * map->height();
         if (texels <= most) continue;
         most = texels;
@@ -90,6 +100,33 @@ TexelSource::TexelSource(const Material& material) : m_material(material) {
         m_height = map->height();
         m_sampler = map->sampler();
     }
+    make_mips();
+}
+
+void TexelSource::make_mips() {
+    std::vector<mips::ParameterGrid> mips;
+    if (m_material.mipmaps) {
+        m_sampler.filter = with_levels(m_sampler.filter, *m_material.mipmaps);
+        mips = mips::parameter_mips([this](int x, int y) { return at(x, y); }, m_width, m_height,
+                                    mips::LobeShape(m_material), *m_material.mipmaps);
+    }
+    m_mips = std::make_shared<const std::vector<mips::ParameterGrid>>(std::move(mips));
+}
+
+int TexelSource::levels() const {
+    return 1 + static_cast<int>(m_mips->size());
+}
+
+int TexelSource::width(int level) const {
+    return level == 0 ? m_width : (*m_mips)[static_cast<std::size_t>(level) - 1].width;
+}
+
+int TexelSource::height(int level) const {
+    return level == 0 ? m_height : (*m_mips)[static_cast<std::size_t>(level) - 1].height;
+}
+
+TexelParameters TexelSource::at(int level, int x, int y) const {
+    return level == 0 ? at(x, y) : (*m_mips)[static_cast<std::size_t>(level) - 1].at(x, y);
 }
 
 double TexelSource::parameter(const ParameterMap& map, float constant, int x, int y) const {
