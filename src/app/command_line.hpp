@@ -101,6 +101,16 @@ struct BakeMaterialOptions {
     std::filesystem::path output;  ///< a directory, made if need be
 };
 
+/// A material file or a generated set.
+struct BakeMipsOptions {
+    std::filesystem::path material;  ///< empty: the set
+    std::string set;                 ///< one of generated_set_names()
+    std::uint32_t seed = 1;
+    int size = 512;
+    MaterialMipmaps mipmaps{MipMethod::moments};
+    std::filesystem::path output;  ///< a directory, made if need be
+};
+
 /// One of three sources: what glTF says, as numbers or textures; two widths; a material file.
 struct BakeAnisotropyOptions {
     std::optional<double> roughness, strength, rotation;  ///< glTF's factors; radians
@@ -124,9 +134,10 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                             CompileModelOptions, InfoOptions, BakeBrushedOptions,
-                             BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
+using Command =
+    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
+                 CompileModelOptions, InfoOptions, BakeBrushedOptions, BakeMaterialOptions,
+                 BakeMipsOptions, BakeAnisotropyOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

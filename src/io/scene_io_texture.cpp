@@ -304,8 +304,9 @@ Mipmaps mipmaps_of(const Section& section) {
                                               section.label()));
     if (word == "files") return {MipmapSource::files};
     const std::optional<MipMethod> method = mip_method_named(word);
-    if (!method) {
+    if (!method || *method == MipMethod::maps) {
         std::vector<std::string_view> known = mip_method_names();
+        std::erase(known, "maps");
         known.emplace_back("files");
         section.fail_unknown_word("mipmaps", word, known);
     }

@@ -19,8 +19,9 @@ constexpr std::array<std::pair<std::string_view, Model>, 12> kModels{
      {"ashikhmin_shirley", Model::ashikhmin_shirley},
      {"ggx", Model::ggx}}};
 
-constexpr std::array<std::pair<std::string_view, MipMethod>, 9> kMipMethods{
+constexpr std::array<std::pair<std::string_view, MipMethod>, 10> kMipMethods{
     {{"none", MipMethod::none},
+     {"maps", MipMethod::maps},
      {"box", MipMethod::box},
      {"normalize", MipMethod::normalize},
      {"mag", MipMethod::mag},

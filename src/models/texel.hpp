@@ -62,15 +62,23 @@ class TexelSource {
 
   private:
     void make_mips();
-    [[nodiscard]] double parameter(const ParameterMap& map, float constant, int x, int y) const;
-    [[nodiscard]] glm::dvec3 color(const TexturePtr& map, const glm::vec3& factor, int x,
-                                   int y) const;
-    [[nodiscard]] glm::dvec3 vector(const TexturePtr& map, VectorEncoding encoding, int x,
-                                    int y) const;
-    [[nodiscard]] glm::dvec3 normal(int x, int y) const;
+    [[nodiscard]] std::vector<mips::ParameterGrid> mips_of_maps() const;
+    /// Of a level of the maps, in its grid.
+    struct MapLevel {
+        int level, width, height;
+    };
+    [[nodiscard]] TexelParameters read(const MapLevel& in, int x, int y) const;
+    [[nodiscard]] double parameter(const ParameterMap& map, float constant, const MapLevel& in,
+                                   int x, int y) const;
+    [[nodiscard]] glm::dvec3 color(const TexturePtr& map, const glm::vec3& factor,
+                                   const MapLevel& in, int x, int y) const;
+    [[nodiscard]] glm::dvec3 vector(const TexturePtr& map, VectorEncoding encoding,
+                                    const MapLevel& in, int x, int y) const;
+    [[nodiscard]] glm::dvec3 normal(const MapLevel& in, int x, int y) const;
 
     Material m_material;
     Sampler m_sampler;
+    std::vector<TextureLevel> m_map_levels;  ///< of the finest map
     int m_width = 1, m_height = 1;
     bool m_varies = false, m_averages_layer = false;
     std::shared_ptr<const std::vector<mips::ParameterGrid>> m_mips;  ///< level 1 first
