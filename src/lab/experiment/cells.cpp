@@ -6,7 +6,11 @@
 #include <burnish/error.hpp>
 #include <cctype>
 #include <charconv>
+#include <cmath>
+#include <map>
 #include <set>
+
+#include "lab/experiment/formula.hpp"
 
 namespace burnish::lab {
 namespace {
@@ -54,6 +58,28 @@ std::string file_part(const std::string& label) {
     return part;
 }
 
+/// The labels of a cell that are numbers, by axis.
+std::map<std::string, double> numbers_of(const Experiment& experiment,
+                                         const std::vector<std::size_t>& values) {
+    std::map<std::string, double> numbers;
+    for (std::size_t axis = 0; axis < values.size(); ++axis) {
+        const ExperimentAxis& of = experiment.axes[axis];
+        if (const auto number = label_number(of.values[values[axis]].label))
+            numbers.emplace(of.name, *number);
+    }
+    return numbers;
+}
+
+std::string formula_value(const Experiment& experiment, const ExperimentSetting& setting,
+                          const std::map<std::string, double>& variables) {
+    try {
+        return with_formulas(setting.value, variables);
+    } catch (const Error& error) {
+        throw Error(error.code(),
+                    fmt::format("{}: {}: {}", experiment.file.string(), setting.key, error.what()));
+    }
+}
+
 Cell make_cell(const Experiment& experiment, const std::vector<std::size_t>& values, bool quick) {
     Cell cell;
     cell.values = values;
@@ -81,6 +107,10 @@ Cell make_cell(const Experiment& experiment, const std::vector<std::size_t>& val
     for (const ExperimentSetting& setting : experiment.test) add(experiment, setting, cell.test);
     for (const ExperimentSetting& setting : experiment.reference)
         add(experiment, setting, cell.reference);
+    const std::map<std::string, double> variables = numbers_of(experiment, values);
+    for (PictureSettings* picture : {&cell.test, &cell.reference})
+        for (ExperimentSetting& setting : picture->settings)
+            setting.value = formula_value(experiment, setting, variables);
     return cell;
 }
 
@@ -124,6 +154,14 @@ std::vector<Cell> make_cells(const Experiment& experiment, bool quick) {
     }
     make_names_differ(cells);
     return cells;
+}
+
+std::optional<double> label_number(const std::string& label) {
+    double value = 0.0;
+    const char* const end = label.data() + label.size();
+    const auto [stop, failure] = std::from_chars(label.data(), end, value);
+    if (failure != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 std::size_t axis_index(const Experiment& experiment, const std::string& name) {

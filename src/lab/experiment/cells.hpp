@@ -2,6 +2,7 @@
 
 #include <burnish/experiment.hpp>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,17 @@ struct Cell {
 /// Axes multiplied out, the last one running fastest; with `quick` only quick values, and what
 /// Experiment::quick says. What a sweep says of keys that begin with "machine." or "bits." is for
 /// the test alone, so is all of a sweep with `test_only`. The key "samples" sets the samples.
-/// Throws Error{limit} beyond 100 000 cells, Error{bad_input} for samples that are no square.
+/// Formulas (formula.hpp) know the labels that are numbers by the names of their axes.
+/// Throws Error{limit} beyond 100 000 cells, Error{bad_input} for samples that are no square and
+/// for bad formulas.
 std::vector<Cell> make_cells(const Experiment& experiment, bool quick);
 
 /// The label of a cell on an axis of that name.
 const std::string& label_of(const Experiment& experiment, const Cell& cell,
                             const std::string& axis);
+
+/// A label that is a finite number.
+std::optional<double> label_number(const std::string& label);
 
 /// Whether a cell has the values that `choice` lists.
 bool matches(const Experiment& experiment, const Cell& cell, const ExperimentChoice& choice);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/camera.hpp"
+#include "lab/experiment/bits_settings.hpp"
 #include "metrics/frame_errors.hpp"
 
 namespace burnish::lab {
@@ -77,6 +78,8 @@ void scale_lights(Scene& scene, double factor) {
 }
 
 Framebuffer draw_picture(const Scene& scene, const PictureSettings& picture, int threads) {
+    if (const std::optional<StageBits> bits = bits_of(picture.settings))
+        return render_with_bits(scene, *bits, threads);
     RendererOptions options;
     options.threads = threads;
     options.double_samples = picture.samples;

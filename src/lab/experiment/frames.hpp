@@ -23,8 +23,8 @@ Scene moved(const Scene& scene, const glm::dvec2& pixels);
 double exposure(const Scene& reference, double peak, int threads);
 void scale_lights(Scene& scene, double factor);
 
-/// Draws with `threads` workers; several samples with Machine::double_precision only. Throws what
-/// Renderer::render does.
+/// Draws with `threads` workers, by render_with_bits if a setting speaks of bits; several samples
+/// with Machine::double_precision only. Throws what Renderer::render and bits_of do.
 Framebuffer draw_picture(const Scene& scene, const PictureSettings& picture, int threads);
 
 }  // namespace burnish::lab

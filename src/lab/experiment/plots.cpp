@@ -10,7 +10,6 @@
 #include <array>
 #include <burnish/files.hpp>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -19,14 +18,6 @@
 
 namespace burnish::lab {
 namespace {
-
-std::optional<double> number_of(const std::string& label) {
-    double value = 0.0;
-    const char* const end = label.data() + label.size();
-    const auto [stop, failure] = std::from_chars(label.data(), end, value);
-    if (failure != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
 
 /// Text within gnuplot's double quotes, shown as it is.
 std::string plain(const std::string& text) {
@@ -43,11 +34,11 @@ class HorizontalAxis {
   public:
     explicit HorizontalAxis(const ExperimentAxis& axis) : m_axis(axis) {
         m_numeric = std::all_of(axis.values.begin(), axis.values.end(), [](const auto& value) {
-            return number_of(value.label).has_value();
+            return label_number(value.label).has_value();
         });
     }
     [[nodiscard]] double place(std::size_t value) const {
-        return m_numeric ? *number_of(m_axis.values[value].label) : static_cast<double>(value);
+        return m_numeric ? *label_number(m_axis.values[value].label) : static_cast<double>(value);
     }
     /// Ticks at every value if they have names or there are few.
     [[nodiscard]] std::string ticks() const {

@@ -1,22 +1,15 @@
 #include "lab/experiment/verdicts.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "core/dmath.hpp"
+
 namespace burnish::lab {
 namespace {
-
-std::optional<double> number_of(const std::string& label) {
-    double value = 0.0;
-    const char* const end = label.data() + label.size();
-    const auto [stop, failure] = std::from_chars(label.data(), end, value);
-    if (failure != std::errc() || stop != end) return std::nullopt;
-    return value;
-}
 
 /// A cell's label on an axis, as a number, and its metric.
 struct Point {
@@ -52,14 +45,14 @@ std::optional<double> measure_of(ExperimentMeasure measure, std::vector<Point> p
     if (measure == ExperimentMeasure::argmax) return extreme(points, false);
     for (Point& point : points) {
         if (!(point.value > 0.0)) return std::nullopt;
-        point.value = std::log(point.value);
+        point.value = dmath::log2(point.value);
         if (measure == ExperimentMeasure::halving) continue;
         if (!(point.label > 0.0)) return std::nullopt;
-        point.label = std::log(point.label);
+        point.label = dmath::log2(point.label);
     }
     const std::optional<double> found = slope(points);
     if (!found || measure == ExperimentMeasure::slope) return found;
-    return std::exp(-*found);
+    return dmath::exp2(-*found);
 }
 
 class Judge {
@@ -142,7 +135,7 @@ class Judge {
             bool complete = true;
             for (const std::size_t cell : cells) {
                 const auto value = m_results.value(cell, m_expectation.metric);
-                const auto label = number_of(
+                const auto label = label_number(
                     label_of(m_results.experiment, m_results.cells[cell], m_expectation.along));
                 complete = complete && value && label;
                 if (value && label) points.push_back({*label, *value});
