@@ -3,7 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <burnish/renderer.hpp>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -74,6 +76,45 @@ void frame(benchmark::State& state, const std::string& name, const std::string& 
     state.counters["tiles_ms"] = tiles_ms / frames;
     state.counters["covered"] = static_cast<double>(stats.shaded_pixels) / (kWidth * kHeight);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(stats.shaded_pixels));
+}
+
+/// How much longer a frame takes whose programs run at four texels: frames of both orders in turns,
+/// counters of their medians.
+void filter_order(benchmark::State& state, const std::string& name, const std::string& isa) {
+    const auto scene_of = [&](int width, int height, FilterOrder order) {
+        Scene scene = name == "S1a" ? lobe_scene(144, 72, width, height)
+                                    : ellipsoid_scene(144, 72, width, height);
+        scene.machine.filter_order = order;
+        return scene;
+    };
+    const auto draw_small = [&](const std::string& table) {
+        Framebuffer frame(160, 90);
+        Renderer({.isa = table}).render(scene_of(160, 90, FilterOrder::after), frame);
+        return frame;
+    };
+    if (!same_frames(draw_small(isa), draw_small("reference")))
+        return state.SkipWithError("differs from the reference");
+    constexpr std::array kOrders{FilterOrder::before, FilterOrder::after};
+    Scene scene = scene_of(kWidth, kHeight, FilterOrder::before);
+    Renderer renderer({.threads = 1, .isa = isa});
+    Framebuffer target(kWidth, kHeight);
+    std::array<std::vector<double>, 2> times;
+    renderer.render(scene, target);  // compiles what there is to compile
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            scene.machine.filter_order = kOrders[i];
+            const auto start = std::chrono::steady_clock::now();
+            renderer.render(scene, target);
+            times[i].push_back(
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                    .count());
+        }
+    }
+    for (std::vector<double>& t : times) std::ranges::sort(t);
+    const auto median = [&](std::size_t i) { return times[i][times[i].size() / 2]; };
+    state.counters["before_ms"] = median(0);
+    state.counters["after_ms"] = median(1);
+    state.counters["ratio"] = median(1) / median(0);
 }
 
 /// The ellipsoid's vertices on the screen, for the stages after `transform`.
@@ -185,6 +226,11 @@ void register_all() {
         benchmark::RegisterBenchmark(("raster/tiles/" + isa).c_str(), tile, table)
             ->Unit(benchmark::kMicrosecond);
         if (table == &table_reference()) continue;
+        for (const std::string scene : {"S1c", "S1a"})
+            benchmark::RegisterBenchmark(("filter_order/" + scene + "_1080p/" + isa).c_str(),
+                                         filter_order, scene, isa)
+                ->Unit(benchmark::kMillisecond)
+                ->UseRealTime();
         for (const std::string scene : {"S1c", "S8_opaque", "S8_blend"})
             for (const int threads : {1, 2}) register_frame(scene, isa, threads);
     }

@@ -685,6 +685,23 @@ void add_levels() {
         address.levels[k] = {kTexture >> k, kTexture >> k, 1, 1000 * k};
     add_packet_stage("level_address", &KernelTable::level_address, packet, address,
                      {.addresses = true});
+    TexelCornerCtx corner{};
+    corner.v = 1;
+    corner.q = -1;
+    corner.lambda = 5;
+    corner.to = 2;
+    corner.weight = 6;
+    corner.choice = LevelChoice::floor;
+    corner.mag_linear = corner.min_linear = 1;
+    corner.level_count = address.level_count;
+    std::copy_n(address.levels, address.level_count, corner.levels);
+    corner.level = 8;
+    add_packet_stage("texel_corner", &KernelTable::texel_corner, packet, corner,
+                     {.planes = {6, 7, 8}, .attributes = {2, 3}});
+    add_packet_stage("filter_nine_bit", &KernelTable::filter_nine_bit, packet, FilterCtx{10, 6, 30},
+                     {.planes = {30, 31, 32, 33}});
+    add_packet_stage("filter_wide", &KernelTable::filter_wide, packet, FilterCtx{10, 6, 30},
+                     {.planes = {30, 31, 32, 33}});
     add_packet_stage("blend_levels", &KernelTable::blend_levels, packet,
                      BlendLevelsCtx{10, 14, 20, 4, 5, 0}, {.planes = {20, 21, 22, 23}});
     static const std::vector<std::uint8_t> texels(8192, 77);

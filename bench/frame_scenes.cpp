@@ -36,6 +36,16 @@ Scene ellipsoid_scene(int columns, int rows, int width, int height) {
     return scene;
 }
 
+Scene lobe_scene(int columns, int rows, int width, int height) {
+    Scene scene = ellipsoid_scene(columns, rows, width, height);
+    scene.machine = machine_profile("ideal");
+    Material material = *scene.objects.front().material;
+    material.model = Model::abp;
+    material.exponent_map = {material.specular_map, 3, 8.0F, 16.0F};
+    scene.objects.front().material = std::make_shared<Material>(material);
+    return scene;
+}
+
 Scene layers_scene(const Layers& layers, int width, int height) {
     Scene scene;
     scene.width = width;

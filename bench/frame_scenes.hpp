@@ -10,6 +10,9 @@ namespace burnish {
 /// combiners and three units did.
 Scene ellipsoid_scene(int columns, int rows, int width, int height);
 
+/// The same in anisotropic Blinn-Phong on `ideal`, N from 8 to 16: five maps' worth of words.
+Scene lobe_scene(int columns, int rows, int width, int height);
+
 struct Layers {
     int count = 8;
     std::optional<Blend> blend = {};

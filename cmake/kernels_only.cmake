@@ -19,7 +19,7 @@ target_compile_options(gtest PRIVATE -w)
 target_compile_options(gtest_main PRIVATE -w)
 
 # The part of burnish that the tests of the kernels link.
-add_library(burnish STATIC src/core/cpu.cpp kernels/reference.cpp)
+add_library(burnish STATIC src/core/aligned.cpp src/core/cpu.cpp kernels/reference.cpp)
 set_source_files_properties(kernels/reference.cpp PROPERTIES COMPILE_OPTIONS -O2)
 target_include_directories(burnish PUBLIC src/include PRIVATE src ${PROJECT_SOURCE_DIR})
 target_link_libraries(burnish PUBLIC fmt::fmt)

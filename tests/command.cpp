@@ -34,8 +34,8 @@ TEST_F(Command, HelpListsTheCommandsThatAreThere) {
     const Result render = run("render --help");
     EXPECT_EQ(render.code, 0);
     for (const char* option : {"--output", "--size", "--threads", "--isa", "--machine", "--samples",
-                               "--half-vector", "--camera-position", "--light", "--background",
-                               "--turntable", "-D", "--stats", "--quiet"})
+                               "--half-vector", "--filter-order", "--camera-position", "--light",
+                               "--background", "--turntable", "-D", "--stats", "--quiet"})
         EXPECT_SAYS(render.out, option);
 }
 
@@ -56,6 +56,7 @@ TEST_F(Command, WrongUsageIsCodeTwo) {
     expect_failure("render s.toml --isa mmx", 2, "mmx");
     expect_failure("render s.toml --machine nv2b", 2, "did you mean 'nv2a'?");
     expect_failure("render s.toml --half-vector nowhere", 2, "expected pixel, vertex");
+    expect_failure("render s.toml --filter-order last", 2, "expected before or after");
     expect_failure("render s.toml --samples 5", 2, "--samples");
     expect_failure("render s.toml --camera-position 1,2", 2, "--camera-position 1,2");
     expect_failure("render s.toml --light 1,2,x", 2, "--light 1,2,x");
@@ -138,8 +139,9 @@ TEST_F(Command, OptionsChangeThePicture) {
          {"--camera-position 3,0,0.5", "--camera-focal-point 0.5,0,0", "--camera-azimuth 30",
           "--camera-elevation 20", "--camera-zoom 2", "--camera-view-angle 60", "--light 0,-1,0",
           "--light 0,2,0,1", "--light 1,1,1 --light -1,0,1", "--half-vector cube:4",
-          "-D machine.viewer=infinite", "-D machine.normalise_half_vector=false", "--aov bitangent",
-          "--aov stripes", "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
+          "--filter-order after", "-D machine.viewer=infinite",
+          "-D machine.normalise_half_vector=false", "--aov bitangent", "--aov stripes",
+          "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
         const Result result = run(std::string("render s.toml -o other.png ") + option);
         ASSERT_EQ(result.code, 0) << option << result.err;
         EXPECT_TRUE(load_image(path("other.png")).rgba != plain.rgba) << option;

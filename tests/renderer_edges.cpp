@@ -2,10 +2,12 @@
 // format of the background, numbers that are none, cameras that see nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <burnish/error.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -276,6 +278,21 @@ TEST(Edges, FramesThatCannotBeAreRefused) {
               std::string::npos);
     EXPECT_EQ(message([] { Renderer({.threads = 1025}); }),
               "threads: 1025 found, expected 0 .. 1024");
+}
+
+TEST(Edges, FramesAreBlackAndBeginAtLinesAndWhereLargeAtHugePages) {
+    const auto check = [](int width, int height, std::uintptr_t border) {
+        const Framebuffer frame(width, height);
+        EXPECT_EQ(reinterpret_cast<std::uintptr_t>(frame.pixels()) % border, 0U) << height;
+        const std::byte* const end = frame.row(height - 1) + frame.pitch();
+        EXPECT_EQ(std::count(frame.pixels(), end, std::byte{0}), end - frame.pixels());
+    };
+    constexpr std::uintptr_t kHugePage = std::uintptr_t{2} << 20;
+    check(1, 1, 64);
+    check(1024, 255, 64);
+    check(1024, 256, kHugePage);  // half of one
+    check(1024, 767, kHugePage);  // and small pages behind it
+    check(1024, 768, kHugePage);
 }
 
 TEST(Edges, RenderersAndFramesMove) {

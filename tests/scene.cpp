@@ -223,13 +223,6 @@ TEST_F(SceneFiles, VectorsOfAMachine) {
                 "expected half_vector = pixel");
 }
 
-TEST_F(SceneFiles, WhatThisVersionCannotHonourIsRefused) {
-    const std::string texture = "[[textures]]\nname = \"t\"\ngenerator = \"brushed\"\nwidth = 4\n";
-    const std::vector<std::string> texts{texture + "mipmaps = \"toksvig\"\n"};
-    for (const std::string& text : texts)
-        EXPECT_SAYS(bad(text), "is not supported in this version");
-}
-
 // What a scene says of its machine stays in the file when the double renderer draws it.
 TEST_F(SceneFiles, ProfileDoubleTakesTheKeysOfMachines) {
     EXPECT_FALSE(scene("[machine]\nprofile = \"ideal\"\n").machine.double_precision);

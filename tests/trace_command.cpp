@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <burnish/files.hpp>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -209,6 +210,33 @@ TEST_F(TraceCommand, GeometryAsPictures) {
     expect_failure("render q.toml --aov triangle --samples 4 -o x.png", 2, "numbers have no mean");
     const Result bench = run("bench q.toml --aov depth --frames 1 --json");
     EXPECT_EQ(bench.code, 0) << bench.err;
+}
+
+// Half red becomes code 128 of 255 on its way to a register: off by 1/510, the mean square over
+// three channels a third of that. Nothing else has an error.
+TEST_F(TraceCommand, ByStageSaysWhereTheErrorComesFrom) {
+    write_quad();
+    const Json picture = json("q.toml --by-stage");
+    EXPECT_EQ(picture["pixels"].number, 16);
+    EXPECT_EQ(picture["stages"][0]["stage"].text, "half_vector");
+    const double rmse = 1.0 / 510.0 / std::sqrt(3.0);
+    EXPECT_NEAR(picture["stages"][0]["alone"].number, rmse, 1e-7);
+    EXPECT_NEAR(picture["machine_rmse"].number, rmse, 1e-7);
+    EXPECT_NEAR(picture["rest"].number, 0.0, 1e-7);
+    const Json pixel = json("q.toml --by-stage --pixel 1,1 --bits half_vector=exact");
+    EXPECT_NEAR(pixel["steps"][1]["change"][0].number, 0.0, 1e-12);
+    EXPECT_NEAR(pixel["machine_color"][0].number, 128.0 / 255.0, 1e-7);
+
+    const Result drawn = run("trace q.toml --by-stage --quiet -o w.svg");
+    if (drawn.code == 0) {
+        EXPECT_SAYS(read(path("w.svg")), "<svg");
+    } else {
+        EXPECT_SAYS(drawn.err, "no plots: gnuplot is not there");
+    }
+    expect_failure("trace q.toml", 2, "expected --pixel X,Y or --by-stage");
+    expect_failure("trace q.toml --by-stage --bits film=8", 2, "bits of 'film', expected");
+    expect_failure("trace q.toml --by-stage --pixel 6,1", 2, "shows the background");
+    expect_failure("trace q.toml --by-stage --machine double", 2, "profile double");
 }
 
 TEST_F(TraceCommand, LayersAreListed) {

@@ -5,6 +5,7 @@
 #include <burnish/files.hpp>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <string>
 #include <utility>
 #include <vector>
@@ -135,8 +136,11 @@ void save_pictures(const CompareOptions& options, const Framebuffer& test,
 }  // namespace
 
 void run(const CompareOptions& options) {
+    std::future<Framebuffer> loading =
+        std::async(options.threads == 1 ? std::launch::deferred : std::launch::async,
+                   [&options] { return load_frame(options.reference); });
     const Framebuffer test = load_frame(options.test);
-    const Framebuffer reference = load_frame(options.reference);
+    const Framebuffer reference = loading.get();
     require_one_size(options, test, reference);
     const metrics::CompareOptions measured = complete(options);
     WorkerPool pool(options.threads);

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
@@ -8,6 +7,7 @@
 
 #include "app/output_name.hpp"
 #include "app/picture.hpp"
+#include "app/progress.hpp"
 #include "app/stats.hpp"
 #include "app/supersample.hpp"
 #include "app/verbs.hpp"
@@ -53,33 +53,6 @@ int enlargement(const RenderOptions& options, const Scene& scene) {
     return side;
 }
 
-/// How far a turntable is, on a terminal, once it takes longer than a second.
-class Progress {
-  public:
-    explicit Progress(int total, bool quiet)
-        : m_total(total), m_shown(!quiet && total > 1 && isatty(STDERR_FILENO) != 0) {}
-    ~Progress() {
-        if (m_printed) fmt::print(stderr, "\r\x1b[K");
-    }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
-    void done(int count) {
-        if (!m_shown || ms_since(m_start) < 1000.0) return;
-        constexpr int kWidth = 40;
-        const int filled = kWidth * count / m_total;
-        fmt::print(stderr, "\r[{:<{}}] {}/{}", std::string(static_cast<std::size_t>(filled), '#'),
-                   kWidth, count, m_total);
-        m_printed = true;
-    }
-
-  private:
-    int m_total;
-    bool m_shown;
-    bool m_printed = false;
-    Clock::time_point m_start = Clock::now();
-};
-
 /// The lines that tell what was done. They leave standard output to data when there is any.
 void report(const RenderOptions& options, const std::string& name, const Framebuffer& frame,
             const FrameStats& stats, const Renderer& renderer, bool double_precision,
@@ -109,7 +82,7 @@ void run(const RenderOptions& options) {
     const int side = enlargement(options, scene);
     const int frames = options.turntable > 0 ? options.turntable : 1;
     Framebuffer frame(scene.width, scene.height, frame_format(options, scene, pattern));
-    Progress progress(frames, options.picture.quiet);
+    Progress progress(options.picture.quiet);
     for (int i = 0; i < frames; ++i) {
         Scene turn = scene;
         if (i > 0)
@@ -120,7 +93,7 @@ void run(const RenderOptions& options) {
         const double frame_ms = ms_since(start);
         const std::string name = numbered_name(pattern, i);
         save_image(frame, name);
-        progress.done(i + 1);
+        progress.done(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(frames));
         if (i + 1 == frames)
             report(options, pattern, frame, stats, renderer, scene.machine.double_precision,
                    frame_ms);

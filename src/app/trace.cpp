@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "app/by_stage.hpp"
 #include "app/picture.hpp"
 #include "app/trace_print.hpp"
 #include "app/verbs.hpp"
@@ -46,9 +47,10 @@ void require_same_pixel(const PixelTrace& trace, const Framebuffer& frame) {
 }  // namespace
 
 void run(const TraceOptions& options) {
+    if (options.by_stage) return trace_by_stage(options);
     Renderer renderer = make_renderer(options.picture);
     const Scene scene = load_picture(options.picture);
-    const glm::ivec2 pixel = options.pixel;
+    const glm::ivec2 pixel = options.pixel.value();
     if (pixel.x >= scene.width || pixel.y >= scene.height)
         throw Error(ErrorCode::bad_option,
                     fmt::format("--pixel {},{}, expected one inside the picture of {} x {} pixels",

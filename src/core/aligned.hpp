@@ -7,20 +7,24 @@
 
 namespace burnish {
 
-/// Allocates on cache line borders, which std::allocator does not promise.
+/// Memory on a cache line border. What is as large as a huge page begins at the border of one, and
+/// the system is asked to use them: rows of a texture, of a frame or of planes then need few
+/// entries of the TLB. Throws std::bad_alloc.
+void* allocate_aligned(std::size_t bytes);
+/// @param bytes  as allocated
+void free_aligned(void* p, std::size_t bytes) noexcept;
+
+/// allocate_aligned() for containers.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
-    static constexpr std::align_val_t kAlignment{64};
 
     CacheLineAllocator() = default;
     template <class U>
     CacheLineAllocator(const CacheLineAllocator<U>&) {}
 
-    T* allocate(std::size_t n) {
-        return static_cast<T*>(::operator new(n * sizeof(T), kAlignment));
-    }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, kAlignment); }
+    T* allocate(std::size_t n) { return static_cast<T*>(allocate_aligned(n * sizeof(T))); }
+    void deallocate(T* p, std::size_t n) noexcept { free_aligned(p, n * sizeof(T)); }
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 

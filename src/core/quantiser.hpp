@@ -36,20 +36,22 @@ class Quantiser {
 
     /// 0 .. 1 in 2^bits - 1 steps.
     double unsigned_number(double x, int bits) {
-        const double one = std::ldexp(1.0, bits) - 1.0;
-        return bits == kExactBits ? skip(x) : std::clamp(step(x * one) / one, 0.0, 1.0);
+        if (bits == kExactBits) return skip(x);
+        const double one = power(bits) - 1.0;
+        return std::clamp(step(x * one) / one, 0.0, 1.0);
     }
 
     /// A sign and 2^(bits - 1) - 1 steps to 1, no end.
     double signed_number(double x, int bits) {
-        const double one = std::ldexp(1.0, bits - 1) - 1.0;
-        return bits == kExactBits ? skip(x) : step(x * one) / one;
+        if (bits == kExactBits) return skip(x);
+        const double one = power(bits - 1) - 1.0;
+        return step(x * one) / one;
     }
 
     /// The same of a product.
     double product(double x, int bits) {
-        const double one = std::ldexp(1.0, bits - 1) - 1.0;
         if (bits == kExactBits) return skip(x);
+        const double one = power(bits - 1) - 1.0;
         if (m_rounding != BitRounding::shift8) return step(x * one) / one;
         ++m_count;
         return std::floor(x * one * (one / (one + 1.0)) + 0x1p-24) / one;
@@ -59,11 +61,13 @@ class Quantiser {
     /// -1 and 1 may be a step off. Rounding is that of x.
     double coded_number(double c, int bits) {
         if (bits == kExactBits) return skip(c);
-        const double half = std::ldexp(1.0, bits - 1), one = 2.0 * half - 1.0;
+        const double half = power(bits - 1), one = 2.0 * half - 1.0;
         return std::clamp(step((c - 0.5) * one), -half, half - 1.0) / one + 0.5;
     }
 
   private:
+    static double power(int bits) { return static_cast<double>(std::uint32_t{1} << bits); }
+
     double skip(double x) {
         ++m_count;
         return x;

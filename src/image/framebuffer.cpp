@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/framebuffer.hpp>
 #include <cstdint>
+
+#include "core/aligned.hpp"
 
 namespace burnish {
 
@@ -42,10 +45,10 @@ Framebuffer::Framebuffer(int width, int height, PixelFormat format)
     check_size(width, height);
     m_pitch = static_cast<std::ptrdiff_t>(pixel_size(format)) * width;
     // Whole cache lines, so that rows can be written past the caches.
-    constexpr std::uintptr_t kLine = 64;
-    m_owned.resize(static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(height) + kLine);
-    const auto address = reinterpret_cast<std::uintptr_t>(m_owned.data());
-    m_pixels = m_owned.data() + (kLine - address % kLine) % kLine;
+    const auto bytes = static_cast<std::size_t>(m_pitch) * static_cast<std::size_t>(height);
+    m_pixels = static_cast<std::byte*>(allocate_aligned(bytes));
+    m_owned.reset(m_pixels, [bytes](std::byte* p) { free_aligned(p, bytes); });
+    std::fill_n(m_pixels, bytes, std::byte{0});
 }
 
 Framebuffer::Framebuffer(void* pixels, std::ptrdiff_t pitch, int width, int height,

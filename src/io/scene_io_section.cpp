@@ -262,12 +262,4 @@ void Section::refuse_without(std::string_view key, std::string_view other) const
         fail(key, fmt::format("'{}' in {} without '{}'", key, m_label, other));
 }
 
-void Section::accept_only(std::string_view key, std::string_view value) const {
-    const std::optional<std::string> found = text(key);
-    if (found && *found != value)
-        fail(key,
-             fmt::format("'{}' = \"{}\" in {} is not supported in this version, expected \"{}\"",
-                         key, *found, m_label, value));
-}
-
 }  // namespace burnish

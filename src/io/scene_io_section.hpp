@@ -105,8 +105,6 @@ class Section {
     void refuse(std::initializer_list<std::string_view> keys) const;
     /// A key that means something only beside another one.
     void refuse_without(std::string_view key, std::string_view other) const;
-    /// A key of which this version can honour one value.
-    void accept_only(std::string_view key, std::string_view value) const;
 
   private:
     const toml::node* find(std::string_view key) const;

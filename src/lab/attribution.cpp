@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <burnish/error.hpp>
+#include <burnish/program_text.hpp>
 #include <burnish/renderer.hpp>
 #include <cmath>
 #include <cstring>
@@ -61,7 +62,11 @@ Framebuffer drawn(const Scene& scene, int threads) {
 std::optional<Framebuffer> drawn_in_double(Scene scene, int threads) {
     for (const Object& object : scene.objects)
         if (object.material && object.material->program) return std::nullopt;
-    scene.machine.double_precision = true;
+    Machine formulas = machine_profile("double");
+    formulas.viewer = scene.machine.viewer;
+    formulas.tangent_frames = scene.machine.tangent_frames;
+    formulas.normalise_half_vector = scene.machine.normalise_half_vector;
+    scene.machine = formulas;
     Framebuffer frame = drawn(scene, threads);
     for (int y = 0; y < frame.height(); ++y) {
         for (int x = 0; x < frame.width(); ++x) {
@@ -120,6 +125,10 @@ Attribution attribute_error(const Scene& whole_scene, const StageBits& bits, int
     const std::vector<Stage> stages = stages_of(renderer.stage_count());
     std::size_t done = 0;
     const std::size_t total = 3 * stages.size() + 3;
+    const auto text_of = [&](std::size_t number) {
+        const std::vector<GeneralStage>& stages_of_first = renderer.program(0).stages;
+        return number < stages_of_first.size() ? print_stage(stages_of_first[number]) : "";
+    };
     const auto count = [&] {
         if (progress) progress(++done, total);
     };
@@ -140,6 +149,7 @@ Attribution attribute_error(const Scene& whole_scene, const StageBits& bits, int
         stage.set(so_far, bits);
         const metrics::FrameErrors alone = errors(only);
         result.stages.push_back({.stage = stage.name,
+                                 .text = stage.field == nullptr ? text_of(stage.number) : "",
                                  .bits = stage.bits(bits),
                                  .only = alone.rmse,
                                  .bias = alone.bias,

@@ -22,6 +22,7 @@ StageBits machine_bits(const Machine& machine);
 /// red, green and blue of the pixels with a surface.
 struct StageError {
     std::string stage;  ///< "half_vector", "textures", "filter", "stage 0", .., "table", "frame"
+    std::string text;   ///< of a general stage: what it does in the first object's program
     int bits = kExactBits;    ///< that it has
     double only = 0.0;        ///< it alone is rounded
     double bias = 0.0;        ///< mean difference then, positive where the picture is brighter

@@ -47,9 +47,9 @@ Machine planning_machine(const Machine& machine, bool is_model) {
     return roomy;
 }
 
-/// Whether x/2 + 1/2 of 0 is to be a code: not where `expand` takes the next one for it.
+/// Whether x/2 + 1/2 of 0 is to be a code, as it is of wide machines.
 bool half_is_a_code(const Machine& machine) {
-    return machine.numbers == NumberModel::wide || machine.expand == ExpandRule::ideal;
+    return machine.numbers == NumberModel::wide;
 }
 
 /// An object in one light.

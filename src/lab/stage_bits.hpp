@@ -17,9 +17,9 @@ namespace burnish::lab {
 /// How many bits the numbers have that a stage leaves; kExactBits: as many as a double has.
 ///
 /// b bits are 2^b - 1 steps between 0 and 1; of combiners b bits are a sign and 2^(b - 1) - 1 steps
-/// to 1. Where numbers are x/2 + 1/2 of a signed x and 1/2 is a code of the machine (wide ones, and
-/// `expand = "ideal"`) steps are counted from 1/2, so that 0 stays 0. On others they are not, and a
-/// combiner stage of b bits takes 2^(b - 2) / (2^(b - 1) - 1) for 1/2, as `expand` does with 9.
+/// to 1. Where numbers are x/2 + 1/2 of a signed x, steps are counted from 1/2 on wide machines,
+/// which have a code for it: 0 stays 0. On nine-bit machines they are not, and with their
+/// `expand = "hardware"` a combiner stage of b bits takes 2^(b - 2) / (2^(b - 1) - 1) for 1/2.
 /// A nine-bit machine has 8, 8, 8, 9, 8, 8 here and `nearest`, or what its `product_rounding` is.
 struct StageBits {
     /// Vectors, cosines and colours that the interpolators bring to registers, coded.

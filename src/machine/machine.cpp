@@ -150,6 +150,7 @@ void Machine::validate() const {
 Machine Machine::for_programs() const {
     Machine rest = *this;
     if (half_vector == HalfVector::cube) --rest.texture_units;
+    rest.filter_order = FilterOrder::before;
     return rest;
 }
 

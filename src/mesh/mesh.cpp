@@ -57,8 +57,8 @@ constexpr Bounds kEmptyBounds{glm::vec3(std::numeric_limits<float>::infinity()),
 struct Mesh::Storage {
     AlignedVector<float> planes;  ///< x, y, z, each `pitch` long
     std::size_t pitch = 0;
-    std::vector<VertexFrame> frames;
-    std::vector<std::uint32_t> indices;
+    AlignedVector<VertexFrame> frames;
+    AlignedVector<std::uint32_t> indices;
     Bounds bounds;
 };
 
@@ -77,7 +77,7 @@ Mesh::Mesh(const MeshData& data) {
     for (std::size_t i = 0; i < count; ++i)
         storage->frames.push_back(
             {data.positions[i], data.normals[i], data.tangents[i], data.uvs[i]});
-    storage->indices = data.indices;
+    storage->indices.assign(data.indices.begin(), data.indices.end());
     storage->bounds = finite_bounds(data.positions);
     m_storage = std::move(storage);
 }

@@ -531,7 +531,7 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     shading.further_lights.clear();
     shading.reads_light = shading.reads_frame = false;
     shading.corners.reset();
-    const std::optional<FinestMap> finest = map_of_corners(programs, machine, is_mesh);
+    const std::optional<FinestMap> finest = map_of_corners(programs, whole_machine, is_mesh);
     bool quads = false;
     for (std::size_t i = 1; i < programs.size(); ++i) {
         plan_light(shading, programs[i], machine, is_mesh, static_cast<int>(i), wanted, finest);

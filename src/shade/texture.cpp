@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/aligned.hpp"
 #include "shade/texture_texels.hpp"
 
 namespace burnish {
@@ -45,12 +46,6 @@ int source_of(int at, int size, Wrap wrap) {
 /// 1024^2 maps).
 std::int64_t odd_lines(std::int64_t row_bytes) {
     return (((row_bytes + kLine - 1) / kLine) | 1) * kLine;
-}
-
-/// Where its first cache line begins.
-std::uint8_t* first_line(std::vector<std::uint8_t>& storage) {
-    const auto address = reinterpret_cast<std::uintptr_t>(storage.data());
-    return storage.data() + (kLine - address % kLine) % kLine;
 }
 
 [[noreturn]] void fail(const std::string& message) {
@@ -189,6 +184,12 @@ Wraps stored_wraps(const TextureDescription& d) {
 
 }  // namespace
 
+/// Texels of a texture, or of a quartet's textures.
+struct Texture::Storage {
+    explicit Storage(std::int64_t size) : bytes(static_cast<std::size_t>(size)) {}
+    AlignedVector<std::uint8_t> bytes;
+};
+
 template <class Image>
 void Texture::build(std::span<const Image> images, const TextureDescription& description) {
     const std::vector<TexelLevel> levels = make_levels(images, description);
@@ -222,9 +223,8 @@ void Texture::build(std::span<const Image> images, const TextureDescription& des
     }
     m_pitch = static_cast<std::int32_t>(pitch);
     m_layer_bytes = static_cast<std::int32_t>(layer_bytes);
-    m_storage = std::make_shared<std::vector<std::uint8_t>>(
-        static_cast<std::size_t>(layer_bytes * all_layers + kLine));
-    std::uint8_t* const aligned = first_line(*m_storage);
+    m_storage = std::make_shared<Storage>(layer_bytes * all_layers);
+    std::uint8_t* const aligned = m_storage->bytes.data();
     const std::int64_t first = before * layer_bytes + rows.before * pitch + columns.before * size;
     m_texels = aligned + first;
 
@@ -266,7 +266,7 @@ void Texture::build(std::span<const Image> images, const TextureDescription& des
         }
     }
     if (has_words(m_format)) return;
-    for (std::uint8_t& byte : *m_storage) byte ^= kByteMask;
+    for (std::uint8_t& byte : m_storage->bytes) byte ^= kByteMask;
 }
 
 Texture::Texture(const Image8& image, const Sampler& sampler, TexelFormat format)
@@ -307,15 +307,14 @@ Texture::Texture(const Texture& other, int texel_bytes)
           static_cast<std::int32_t>(moved(other.m_layer_bytes, other.m_pitch, texel_bytes))),
       m_texel_bytes(texel_bytes) {}
 
-Texture::Texture(const Texture& single, int place,
-                 std::shared_ptr<std::vector<std::uint8_t>> storage)
+Texture::Texture(const Texture& single, int place, std::shared_ptr<Storage> storage)
     : Texture(single, kQuartetTexel) {
     m_place = place;
     m_storage = std::move(storage);
     const auto place_of = [&](std::int64_t at) { return moved(at, single.m_pitch, kQuartetTexel); };
-    const std::uint8_t* const from = first_line(*single.m_storage);
-    std::uint8_t* const to = first_line(*m_storage) + kWordTexel * place;
-    const auto last = static_cast<std::int64_t>(single.m_storage->size()) - kLine;
+    const std::uint8_t* const from = single.m_storage->bytes.data();
+    std::uint8_t* const to = m_storage->bytes.data() + kWordTexel * place;
+    const auto last = static_cast<std::int64_t>(single.m_storage->bytes.size());
     for (std::int64_t at = 0; at < last; at += kWordTexel)
         std::copy_n(from + at, kWordTexel, to + place_of(at));
     const std::int64_t first = single.m_texels - from;
@@ -327,9 +326,8 @@ Texture::Texture(const Texture& single, int place,
 TexturePtr Texture::table(const Texture& texture) {
     std::shared_ptr<Texture> table(new Texture(texture, kTableTexel));
     table->m_is_table = true;
-    table->m_storage = std::make_shared<std::vector<std::uint8_t>>(
-        static_cast<std::size_t>(table->m_layer_bytes) + kLine);
-    std::uint8_t* const to = first_line(*table->m_storage);
+    table->m_storage = std::make_shared<Storage>(table->m_layer_bytes);
+    std::uint8_t* const to = table->m_storage->bytes.data();
     table->m_texels = to;
     for (int y = 0; y <= texture.height(); ++y) {
         for (int x = 0; x <= texture.width(); ++x) {
@@ -345,15 +343,14 @@ TexturePtr Texture::table(const Texture& texture) {
 
 std::vector<TexturePtr> Texture::quartet(std::span<const TexturePtr> textures) {
     const Texture& front = *textures.front();
-    const std::int64_t bytes = moved(static_cast<std::int64_t>(front.m_storage->size()) - kLine,
+    const std::int64_t bytes = moved(static_cast<std::int64_t>(front.m_storage->bytes.size()),
                                      front.m_pitch, kQuartetTexel);
     if (bytes > kMaxBytes) {
         throw Error(ErrorCode::limit, fmt::format("quartet of textures of {} bytes, expected at "
                                                   "most {}",
                                                   bytes, kMaxBytes));
     }
-    const auto storage =
-        std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(bytes + kLine));
+    const auto storage = std::make_shared<Storage>(bytes);
     std::vector<TexturePtr> quartet;
     for (const TexturePtr& texture : textures) {
         const auto place = static_cast<int>(quartet.size());

@@ -110,8 +110,8 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
     }
     if (scene.machine.filter_order == FilterOrder::after) {
         throw Error(ErrorCode::bad_option,
-                    "a trace with filter_order = after, which runs programs at four texels; "
-                    "expected filter_order = before");
+                    "a trace with filter_order = after, whose programs run at four texels; trace "
+                    "with filter_order = before, or with nearest filters at one of the texels");
     }
     if (scene.format == PixelFormat::depth32f) {
         throw Error(ErrorCode::bad_option,

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 namespace burnish {
 
@@ -49,7 +49,7 @@ class Framebuffer {
     Framebuffer& operator=(const Framebuffer&) = delete;
 
   private:
-    std::vector<std::byte> m_owned;
+    std::shared_ptr<std::byte> m_owned;  ///< by this object alone
     std::byte* m_pixels;
     std::ptrdiff_t m_pitch;
     int m_width;

@@ -123,7 +123,8 @@ struct Machine {
 
     friend bool operator==(const Machine&, const Machine&) = default;
 
-    /// What is left for programs: a cube map for half vectors has one of the texture units.
+    /// What is left for programs: a cube map for half vectors has one of the texture units, and
+    /// they know nothing of the filter order.
     [[nodiscard]] Machine for_programs() const;
 };
 

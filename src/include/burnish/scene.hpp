@@ -131,6 +131,7 @@ enum class VectorEncoding {
 /// sources.
 enum class MipMethod {
     none,                ///< level 0 alone
+    maps,                ///< level k of every map; of those that end before, the last one
     box,                 ///< parameters and vectors averaged, as mip levels of maps are
     normalize,           ///< and vectors made unit again
     mag,                 ///< and the normal's length kept for the diffuse part

@@ -235,10 +235,11 @@ class Texture {
     [[nodiscard]] static std::shared_ptr<const Texture> table(const Texture& texture);
 
   private:
+    struct Storage;
     /// One that still lacks its texels.
     Texture(const Texture& other, int texel_bytes);
     /// A place of a quartet that still lacks its texels.
-    Texture(const Texture& single, int place, std::shared_ptr<std::vector<std::uint8_t>> storage);
+    Texture(const Texture& single, int place, std::shared_ptr<Storage> storage);
     template <class Image>
     void build(std::span<const Image> images, const TextureDescription& description);
 
@@ -251,7 +252,7 @@ class Texture {
     int m_texel_bytes = 4;
     int m_place = -1;
     bool m_is_table = false;
-    std::shared_ptr<std::vector<std::uint8_t>> m_storage;
+    std::shared_ptr<Storage> m_storage;
     const std::uint8_t* m_texels = nullptr;
 };
 

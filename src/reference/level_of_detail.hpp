@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <burnish/texture.hpp>
+#include <glm/glm.hpp>
+
+#include "models/texel.hpp"
+#include "reference/footprint.hpp"
+
+namespace burnish::reference {
+
+/// How texture coordinates change from one sample to the next one to the right and below.
+struct CoordinateSteps {
+    glm::dvec2 across{0.0}, down{0.0};
+};
+
+/// The levels that a sample looks at, and what they are weighted with.
+struct LevelsSeen {
+    int first, second;  ///< first <= second
+    double weight;      ///< of the second, 0 .. 1
+    bool linear;        ///< within a level; else the nearest texel
+};
+
+/// The level of detail is log2 of the longer step in texels of level 0, plus the sampler's bias, as
+/// on the machines, with all its digits; levels are chosen from it as `sampler` says. Where it is
+/// not above 0, texels are magnified.
+LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
+                       const Sampler& sampler);
+
+/// Mean of texel(level, x, y) at `uv`; `size(level)` is the level's in texels.
+template <class Texel, class Size>
+[[nodiscard]] auto filtered(const glm::dvec2& uv, const LevelsSeen& seen, const Sampler& sampler,
+                            Size&& size, Texel&& texel) {
+    const auto in_level = [&](int level) {
+        const glm::ivec2 sides = size(level);
+        return footprint(uv, sides.x, sides.y, sampler, seen.linear).mean([&](int x, int y) {
+            return texel(level, x, y);
+        });
+    };
+    if (seen.weight == 0.0) return in_level(seen.first);
+    return in_level(seen.first) * (1.0 - seen.weight) + in_level(seen.second) * seen.weight;
+}
+
+/// Mean of value(parameters) over what a sample sees of a material. A border has the colour of the
+/// edge.
+template <class Value>
+[[nodiscard]] auto filtered_texels(const TexelSource& source, const glm::dvec2& uv,
+                                   const CoordinateSteps& steps, Value&& value) {
+    const bool has_levels = source.levels() > 1;
+    const LevelsSeen seen = levels_seen(has_levels ? steps : CoordinateSteps{}, source.width(),
+                                        source.height(), source.levels(), source.sampler());
+    const auto size = [&](int level) {
+        return glm::ivec2(source.width(level), source.height(level));
+    };
+    return filtered(uv, seen, source.sampler(), size, [&](int level, int x, int y) {
+        const glm::ivec2 last = size(level) - 1;
+        return value(source.at(level, std::clamp(x, 0, last.x), std::clamp(y, 0, last.y)));
+    });
+}
+
+}  // namespace burnish::reference
