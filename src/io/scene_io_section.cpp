@@ -250,13 +250,6 @@ std::vector<const toml::table*> Section::tables(std::string_view key) const {
     return result;
 }
 
-void Section::refuse(std::initializer_list<std::string_view> keys) const {
-    for (const std::string_view key : keys) {
-        if (has(key))
-            fail(key, fmt::format("'{}' in {} is not supported in this version", key, m_label));
-    }
-}
-
 void Section::refuse_without(std::string_view key, std::string_view other) const {
     if (has(key) && !has(other))
         fail(key, fmt::format("'{}' in {} without '{}'", key, m_label, other));

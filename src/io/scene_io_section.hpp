@@ -101,8 +101,6 @@ class Section {
     [[noreturn]] void fail_unknown_word(std::string_view key, std::string_view word,
                                         std::span<const std::string_view> known) const;
 
-    /// Keys that the format knows and this version cannot honour: any use is an error.
-    void refuse(std::initializer_list<std::string_view> keys) const;
     /// A key that means something only beside another one.
     void refuse_without(std::string_view key, std::string_view other) const;
 

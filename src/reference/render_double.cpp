@@ -60,26 +60,26 @@ class ObjectShader {
         const TangentFrame frame = tangent_frame(point, m_tangent_frames);
         const glm::dvec3 position = point.mean(&DoubleVertex::position);
         const glm::dvec2 uv = point.mean(&DoubleVertex::uv);
-        if (!m_object.shaded_texels) return shaded(frame, position, uv);
+        const auto step = [&](const glm::dvec3& change) {
+            return SurfacePoint{point.corner, change}.mean(&DoubleVertex::uv);
+        };
+        const CoordinateSteps steps{step(weights.across), step(weights.down)};
+        if (!m_object.shaded_texels) return shaded(frame, position, uv, steps);
         const TexelGrid& grid = *m_object.shaded_texels;
         glm::dvec3 mean(0.0);
         for (const WeightedPoint& texel :
              texel_centres(grid.coordinate(uv), grid.width, grid.height, grid.sampler))
-            if (texel.weight > 0.0) mean += shaded(frame, position, texel.uv) * texel.weight;
+            if (texel.weight > 0.0) mean += shaded(frame, position, texel.uv, steps) * texel.weight;
         return mean;
     }
 
     [[nodiscard]] const DoubleObject& object() const { return m_object; }
 
   private:
-    /// Of what stands at `uv` in the maps, lit at `position`.
+    /// Of what stands at `uv` in the maps, seen in `steps`, lit at `position`.
     [[nodiscard]] glm::dvec3 shaded(const TangentFrame& frame, const glm::dvec3& position,
-                                    const glm::dvec2& uv) const {
+                                    const glm::dvec2& uv, const CoordinateSteps& steps) const {
         const TextModel* text = m_object.text.get();
-        const auto step = [&](const glm::dvec3& change) {
-            return SurfacePoint{point.corner, change}.mean(&DoubleVertex::uv);
-        };
-        const CoordinateSteps steps{step(weights.across), step(weights.down)};
         const TextSurface own = text != nullptr ? text->at(uv, steps) : TextSurface{};
         const Surface surface = text == nullptr ? m_object.surface->at(uv, steps) : Surface{};
         const glm::dvec3 v = normalised(m_eye - position * m_eye_w);
