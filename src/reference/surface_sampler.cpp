@@ -94,20 +94,32 @@ class ConstantSurface : public SurfaceSampler {
 
 class ExactSurface : public SurfaceSampler {
   public:
-    ExactSurface(Model model, TexelSource source) : m_model(model), m_source(std::move(source)) {}
+    ExactSurface(Model model, TexelSource source, ExponentCoding coding)
+        : m_model(model),
+          m_source(std::move(source)),
+          m_logarithmic(coding == ExponentCoding::logarithmic) {}
 
     [[nodiscard]] Surface at(const glm::dvec2& uv) const override {
         const int last_x = m_source.width() - 1, last_y = m_source.height() - 1;
-        return footprint(uv, m_source.width(), m_source.height(), m_source.sampler())
-            .mean([&](int x, int y) {
-                return surface_of(m_model,
-                                  m_source.at(std::clamp(x, 0, last_x), std::clamp(y, 0, last_y)));
-            });
+        Surface mean = footprint(uv, m_source.width(), m_source.height(), m_source.sampler())
+                           .mean([&](int x, int y) {
+                               return texel(std::clamp(x, 0, last_x), std::clamp(y, 0, last_y));
+                           });
+        if (m_logarithmic) mean.N = glm::exp2(mean.N);
+        return mean;
     }
 
   private:
+    /// As it is filtered.
+    [[nodiscard]] Surface texel(int x, int y) const {
+        Surface surface = surface_of(m_model, m_source.at(x, y));
+        if (m_logarithmic) surface.N = glm::log2(surface.N);
+        return surface;
+    }
+
     Model m_model;
     TexelSource m_source;
+    bool m_logarithmic;
 };
 
 class LayerSurface : public SurfaceSampler {
@@ -186,7 +198,8 @@ std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {
     TexelSource source(material);
     if (!source.varies())
         return std::make_unique<ConstantSurface>(surface_of(material.model, source.at(0, 0)));
-    return std::make_unique<ExactSurface>(material.model, std::move(source));
+    return std::make_unique<ExactSurface>(material.model, std::move(source),
+                                          material.exponent_coding);
 }
 
 std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,

@@ -160,10 +160,20 @@ TextSurface TextModel::texel(int x, int y) const {
 TextSurface TextModel::exact(const glm::dvec2& uv) const {
     if (m_constant) return *m_constant;
     const int last_x = m_source.width() - 1, last_y = m_source.height() - 1;
-    return footprint(uv, m_source.width(), m_source.height(), m_source.sampler())
-        .mean([&](int x, int y) {
-            return texel(std::clamp(x, 0, last_x), std::clamp(y, 0, last_y));
-        });
+    const auto is_log = [&](std::size_t i) {
+        return m_quantities[i]->coding == ExponentCoding::logarithmic;
+    };
+    TextSurface mean = footprint(uv, m_source.width(), m_source.height(), m_source.sampler())
+                           .mean([&](int x, int y) {
+                               TextSurface values =
+                                   texel(std::clamp(x, 0, last_x), std::clamp(y, 0, last_y));
+                               for (std::size_t i = 0; i < values.values.size(); ++i)
+                                   if (is_log(i)) values.values[i] = glm::log2(values.values[i]);
+                               return values;
+                           });
+    for (std::size_t i = 0; i < mean.values.size(); ++i)
+        if (is_log(i)) mean.values[i] = glm::exp2(mean.values[i]);
+    return mean;
 }
 
 TextSurface TextModel::at(const glm::dvec2& uv) const {
