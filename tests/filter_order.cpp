@@ -13,6 +13,7 @@
 
 #include "random_program.hpp"
 #include "reference/footprint.hpp"
+#include "reference/surface_sampler.hpp"
 #include "tests/scenes.hpp"
 #include "tests/textured_quad.hpp"
 
@@ -392,6 +393,60 @@ TEST(FilterOrderInDouble, TheMachineFollowsIt) {
     }
     EXPECT_LT(largest, 0.01);
     EXPECT_GT(order, 0.05);
+}
+
+// ---- what is filtered together
+
+/// Of the layer that `machine` works from, in the middle of two texels.
+glm::dvec3 between(const Material& material, const char* machine, std::string_view name) {
+    for (const LayerQuantity& q : material_layer(material, machine_profile(machine)))
+        if (q.name == name) return reference::layer_value(q, {0.5, 0.5});
+    return glm::dvec3(-1.0);
+}
+
+TEST(FilteredQuantities, ANamedNumberOfTheTexelIsFilteredApart) {
+    // t = (1, 0, 0) and (0, 1, 0), alpha_x = 0.25 and 0.5.
+    auto material = ward_with(directions(kAlongU, kAlongV));
+    Image8 widths = plain_image(2, 1, {0, 0, 0, 255});
+    widths.at(1, 0)[0] = 255;
+    material->alpha_x_map = {std::make_shared<Texture>(widths, material->direction_map->sampler()),
+                             0, 0.25F, 0.5F};
+    material->model = Model::text;
+    const auto near = [](const glm::dvec3& got, const glm::dvec3& want, double error) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], want[c], error) << c;
+    };
+    for (const auto& [machine, error] : {std::pair{"nv2a", 0.02}, {"ideal", 1e-3}}) {
+        material->model_text = "P = 1 / alpha_x\nu = dot(h, t) * P\nks * max(0, 1 - u^2) * n_dot_l";
+        near(between(*material, machine, "t"), {0.5, 0.5, 0.0}, error);
+        near(between(*material, machine, "P"), glm::dvec3(3.0), 2.0 * error);
+        material->model_text = "X = t / alpha_x\nu = dot(h, X)\nks * max(0, 1 - u^2) * n_dot_l";
+        near(between(*material, machine, "X"), {2.0, 1.0, 0.0}, 4.0 * error);
+        EXPECT_EQ(between(*material, machine, "t"), glm::dvec3(-1.0)) << "filtered for nobody";
+    }
+}
+
+TEST(FilteredQuantities, TheExponentOrItsLogarithm) {
+    // Machines by themselves take the logarithm of N = 4 .. 32 and the number of 4 .. 9.
+    auto material = ward_with(nullptr);
+    material->model = Model::abp;
+    Image8 image = plain_image(2, 1, {0, 0, 0, 255});
+    image.at(1, 0)[0] = 255;
+    const auto texture = std::make_shared<Texture>(
+        image, Sampler{Filter::linear, Wrap::clamp_to_edge, Wrap::clamp_to_edge});
+    for (const auto& [low, high] : {std::pair{4.0F, 32.0F}, {4.0F, 9.0F}}) {
+        material->exponent_map = {texture, 0, low, high};
+        const double mean = 0.5 * (static_cast<double>(low) + static_cast<double>(high));
+        const double geometric = std::sqrt(static_cast<double>(low) * static_cast<double>(high));
+        for (const bool log : {false, true}) {
+            material->exponent_coding = log ? ExponentCoding::logarithmic : ExponentCoding::linear;
+            const double want = log ? geometric : mean;
+            EXPECT_NEAR(between(*material, "ideal", "N").x, want, 1e-3 * want) << low << log;
+            EXPECT_NEAR(reference::exact_surface(*material)->at({0.5, 0.5}).N.x, want, 1e-9);
+        }
+        material->exponent_coding = ExponentCoding::automatic;
+        const double want = high > 4.0F * low ? geometric : mean;
+        EXPECT_NEAR(between(*material, "ideal", "N").x, want, 1e-3 * want);
+    }
 }
 
 // ---- what there is no after for

@@ -125,6 +125,8 @@ TEST_F(SceneMaterials, ColoursAreColoursGreysOrMaps) {
 
 TEST_F(SceneMaterials, EncodingsNormalsAndDirections) {
     EXPECT_EQ(material("encoding = \"b\"\n")->encoding, VectorEncoding::b);
+    EXPECT_EQ(material("exponent_coding = \"log\"\n")->exponent_coding,
+              ExponentCoding::logarithmic);
     EXPECT_TRUE(material("normal_y = \"up\"\n")->normal_y_up);
     EXPECT_FALSE(material("normal_y = \"down\"\n")->normal_y_up);
     const double third = 1.0471975511965976;
@@ -168,6 +170,7 @@ TEST_F(SceneMaterials, MistakesHaveAPlaceAndACure) {
     EXPECT_SAYS(complaint("exponent = 0\n"), "above 0");
     EXPECT_SAYS(complaint("ks = { map = \"t\" }\nspecular_map = \"t\"\n"), "expected one");
     EXPECT_SAYS(complaint("kd = [1, 2]\n"), "expected an array of 3 numbers");
+    EXPECT_SAYS(complaint("exponent_coding = \"cubic\"\n"), "expected auto, linear, log");
     EXPECT_SAYS(complaint("encoding = \"e\"\n"), "'encoding' = \"e\" in [[materials]]");
     EXPECT_SAYS(complaint("normal_y = \"left\"\n"), "expected up, down");
     EXPECT_SAYS(complaint("generator = \"lath\"\n"), "did you mean 'lathe'?");

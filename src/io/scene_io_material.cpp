@@ -14,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::string_view, 42> kKeys{"name",
+constexpr std::array<std::string_view, 43> kKeys{"name",
                                                  "model",
                                                  "model_text",
                                                  "kd",
@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 42> kKeys{"name",
                                                  "alpha_x",
                                                  "alpha_y",
                                                  "exponent",
+                                                 "exponent_coding",
                                                  "N",
                                                  "nu",
                                                  "nv",

@@ -21,6 +21,10 @@ constexpr std::array<std::pair<std::string_view, VectorEncoding>, 4> kEncodings{
      {"b", VectorEncoding::b},
      {"c", VectorEncoding::c},
      {"d", VectorEncoding::d}}};
+constexpr std::array<std::pair<std::string_view, ExponentCoding>, 3> kExponentCodings{
+    {{"auto", ExponentCoding::automatic},
+     {"linear", ExponentCoding::linear},
+     {"log", ExponentCoding::logarithmic}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> kNormalY{
     {{"up", true}, {"down", false}}};
 constexpr std::array<std::pair<std::string_view, int>, 4> kChannels{
@@ -203,6 +207,8 @@ void read_reflectance(const Section& section, const TextureTable& textures, Mate
         {"alpha_y", kWidth, 1, true, &material.alpha_y, &material.alpha_y_map},
         {section.has("N") ? "N" : "exponent", kExponent, 2, false, &material.exponent,
          &material.exponent_map}};
+    material.exponent_coding = section.choice<ExponentCoding>("exponent_coding", kExponentCodings)
+                                   .value_or(material.exponent_coding);
     for (const ParameterKey& parameter : parameters) read_parameter(section, textures, parameter);
     read_phong_exponents(section, material);
     read_color(section, "kd", textures, material.kd, material.kd_map);

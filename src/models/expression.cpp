@@ -114,12 +114,14 @@ ExprPtr ExprBuilder::leaf(std::string_view name) {
 
 ExprPtr ExprBuilder::quantity(std::string name, const ExprPtr& value) {
     if (value->binding == Binding::constant) return value;
+    const bool is_exponent = value->op == ExprOp::parameter && value->name == "N";
     return intern({.op = ExprOp::quantity,
                    .kind = value->kind,
                    .binding = Binding::texel,
                    .value = {},
                    .name = std::move(name),
-                   .args = {value}});
+                   .args = {value},
+                   .coding = is_exponent ? m_exponent_coding : ExponentCoding::automatic});
 }
 
 ExprPtr ExprBuilder::node(ExprOp op, ValueKind kind, std::vector<ExprPtr> args) {
@@ -155,9 +157,11 @@ ExprPtr ExprBuilder::multiply(const ExprPtr& a, const ExprPtr& b) {
     if (a->kind == ValueKind::scalar && b->kind == ValueKind::scalar &&
         (is_number(*a, 0.0) || is_number(*b, 0.0)))
         return number(0.0);
-    // (g . Q) s = g . (Q s) for what is known at the texel: one quantity instead of a product.
+    // (g . Q) s = g . (Q s) for what is known at the texel: one quantity instead of a product. What
+    // has a name is filtered as it is.
     const auto into_dot = [&](const ExprPtr& d, const ExprPtr& s) -> ExprPtr {
-        if (d->op != ExprOp::dot || !is_texel_scalar(*s)) return nullptr;
+        if (d->op != ExprOp::dot || !is_texel_scalar(*s) || s->op == ExprOp::quantity)
+            return nullptr;
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (d->args[i]->binding == Binding::pixel || d->args[1 - i]->op != ExprOp::geometry)
                 continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <burnish/scene.hpp>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <memory>
@@ -43,7 +44,8 @@ struct Expr {
     glm::dvec3 value{0.0};  ///< of a constant; a scalar in every component
     std::string name;       ///< of leaves and quantities
     std::vector<ExprPtr> args;
-    std::size_t column = 0;  ///< from 1, where the text has it first
+    ExponentCoding coding = ExponentCoding::automatic;  ///< of a quantity that is the exponent
+    std::size_t column = 0;                             ///< from 1, where the text has it first
     std::size_t line = 1;
     std::size_t id = 0;  ///< in the order in which nodes were made
 };
@@ -61,6 +63,8 @@ class ExprBuilder {
     ExprBuilder(const ExprBuilder&) = delete;
     ExprBuilder& operator=(const ExprBuilder&) = delete;
 
+    /// What filters are to see of the quantity that is the exponent alone.
+    void code_exponent(ExponentCoding coding) { m_exponent_coding = coding; }
     /// Where the next nodes stand in the text.
     void at(std::size_t line, std::size_t column);
 
@@ -89,6 +93,7 @@ class ExprBuilder {
     struct Table;
     std::unique_ptr<Table> m_table;
     std::size_t m_line = 1, m_column = 1;
+    ExponentCoding m_exponent_coding = ExponentCoding::automatic;
 };
 
 /// Evaluates expressions again and again, in double precision and with the elementary functions

@@ -369,7 +369,12 @@ class Planner {
     Operand scalar_quantity(const Expr& e) {
         const QuantityValues& values = m_task.quantities.at(&e);
         PlanQuantity q{.name = e.name, .expr = &e, .unit = {}};
-        if (values.low.x > 0.0 && values.high.x > 4.0 * values.low.x && only_in_tables(e)) {
+        const bool logarithmic = is_logarithmic(e, {values.low.x, values.high.x});
+        if (logarithmic && !only_in_tables(e) && e.coding == ExponentCoding::logarithmic)
+            throw Error(ErrorCode::bad_program,
+                        "exponent_coding = log where combiners read N itself, expected linear or a "
+                        "model that reads it in powers");
+        if (logarithmic && only_in_tables(e)) {
             // Relative steps: the axis is a logarithm.
             q.logarithmic = true;
             q.low = dmath::log2(values.low.x);

@@ -116,6 +116,7 @@ s = 1 / sqrt(gv)
 }
 
 ExprPtr model_expression(const Material& material, ExprBuilder& builder) {
+    builder.code_exponent(material.exponent_coding);
     const bool own = material.model == Model::text;
     const std::string_view text =
         own ? std::string_view(material.model_text) : model_text(material.model);

@@ -122,7 +122,16 @@ void look_between_texels(TableFunction& f, const std::vector<const Expr*>& args,
 }  // namespace
 
 bool is_logarithmic(const Expr& arg, const Interval& range) {
-    return arg.op == ExprOp::quantity && range.low > 0.0 && range.high > 4.0 * range.low;
+    if (arg.op != ExprOp::quantity || !(range.low > 0.0)) return false;
+    switch (arg.coding) {
+        case ExponentCoding::linear:
+            return false;
+        case ExponentCoding::logarithmic:
+            return range.high > range.low;
+        case ExponentCoding::automatic:
+            break;
+    }
+    return range.high > 4.0 * range.low;
 }
 
 TableDomain table_domain(const Expr& function, const std::vector<const Expr*>& args, Ranges& ranges,

@@ -97,16 +97,29 @@ class ConstantSurface : public SurfaceSampler {
 
 class ExactSurface : public SurfaceSampler {
   public:
-    ExactSurface(Model model, TexelSource source) : m_model(model), m_source(std::move(source)) {}
+    ExactSurface(Model model, TexelSource source, ExponentCoding coding)
+        : m_model(model),
+          m_source(std::move(source)),
+          m_logarithmic(coding == ExponentCoding::logarithmic) {}
 
     [[nodiscard]] Surface at(const glm::dvec2& uv, const CoordinateSteps& steps) const override {
-        return filtered_texels(m_source, uv, steps,
-                               [&](const TexelParameters& p) { return surface_of(m_model, p); });
+        Surface mean = filtered_texels(m_source, uv, steps,
+                                       [&](const TexelParameters& p) { return texel(p); });
+        if (m_logarithmic) mean.N = glm::exp2(mean.N);
+        return mean;
     }
 
   private:
+    /// As it is filtered.
+    [[nodiscard]] Surface texel(const TexelParameters& parameters) const {
+        Surface surface = surface_of(m_model, parameters);
+        if (m_logarithmic) surface.N = glm::log2(surface.N);
+        return surface;
+    }
+
     Model m_model;
     TexelSource m_source;
+    bool m_logarithmic;
 };
 
 class LayerSurface : public SurfaceSampler {
@@ -195,7 +208,8 @@ std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {
     TexelSource source(material);
     if (!source.varies())
         return std::make_unique<ConstantSurface>(surface_of(material.model, source.at(0, 0)));
-    return std::make_unique<ExactSurface>(material.model, std::move(source));
+    return std::make_unique<ExactSurface>(material.model, std::move(source),
+                                          material.exponent_coding);
 }
 
 std::unique_ptr<SurfaceSampler> layer_surface(const Material& material,

@@ -158,8 +158,18 @@ TextSurface TextModel::texel(const TexelParameters& parameters) const {
 
 TextSurface TextModel::exact(const glm::dvec2& uv, const CoordinateSteps& steps) const {
     if (m_constant) return *m_constant;
-    return filtered_texels(m_source, uv, steps,
-                           [&](const TexelParameters& parameters) { return texel(parameters); });
+    const auto is_log = [&](std::size_t i) {
+        return m_quantities[i]->coding == ExponentCoding::logarithmic;
+    };
+    TextSurface mean = filtered_texels(m_source, uv, steps, [&](const TexelParameters& parameters) {
+        TextSurface values = texel(parameters);
+        for (std::size_t i = 0; i < values.values.size(); ++i)
+            if (is_log(i)) values.values[i] = glm::log2(values.values[i]);
+        return values;
+    });
+    for (std::size_t i = 0; i < mean.values.size(); ++i)
+        if (is_log(i)) mean.values[i] = glm::exp2(mean.values[i]);
+    return mean;
 }
 
 TextSurface TextModel::at(const glm::dvec2& uv, const CoordinateSteps& all_steps) const {

@@ -127,6 +127,14 @@ enum class VectorEncoding {
     d,  ///< (n - 128) / 128, as signed texels and expand have it
 };
 
+/// What filters see of the exponent, where it varies.
+enum class ExponentCoding {
+    automatic,    ///< its logarithm on machines, where that spans two octaves and tables alone read
+                  ///< it; in double precision the number
+    linear,       ///< the number
+    logarithmic,  ///< its logarithm, so that the mean of 4 and 16 is 8
+};
+
 /// How the mip levels of a material's parameters come about: docs/mipmaps.md has formulas and
 /// sources.
 enum class MipMethod {
@@ -163,7 +171,8 @@ struct Material {
     float alpha_y = 0.50F;   ///< along the bitangent
     float exponent = 2.0F;   ///< N of the Blinn-Phong family, p of the fibre models, > 0
     ParameterMap alpha_x_map, alpha_y_map, exponent_map;  ///< instead of the numbers
-    TexturePtr kd_map;                                    ///< rgb multiplies kd
+    ExponentCoding exponent_coding = ExponentCoding::automatic;
+    TexturePtr kd_map;         ///< rgb multiplies kd
     TexturePtr direction_map;  ///< r, g: cosine and sine, to `encoding`, of the angle from the u
                                ///< axis to the tangent, against the clock
     VectorEncoding encoding = VectorEncoding::d;  ///< of normal_map and direction_map
