@@ -135,6 +135,29 @@ TEST(StageBits, AFilterByHand) {
     EXPECT_FLOAT_EQ(red(1), 0.0F);
 }
 
+// A table of 0, 0, 1 at 0.6, which is texel 1.3: 0.3. One bit leaves it the first and the last
+// texel, two give it 0, 2/3, 4/3 and 2, and what they say thirds.
+TEST(StageBits, ATableByHand) {
+    Scene scene = textured_scene(make_texture({plain_image(1, 1, {153, 153, 153, 255})}, {}), 1, 1,
+                                 everywhere({0.5F, 0.5F, 0.0F, 1.0F}), "ideal");
+    Material material = *scene.objects.front().material;
+    Sampler sampler;
+    sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
+    material.program->units.push_back(make_texture(
+        {row_image({0, 0, 255})}, {.target = TextureTarget::one_d, .sampler = sampler}));
+    GeneralStage& stage = material.program->combiners.stages.front();
+    stage.fetches.push_back({tex(1), FetchTarget::table_1d, {{{tex(0), 0, false}}}});
+    stage.rgb.a.reg = tex(1);
+    scene.objects.front().material = std::make_shared<const Material>(material);
+    const auto red = [&](const StageBits& bits) {
+        return pixel(render_with_bits(scene, bits, 1), 0, 0).r;
+    };
+    EXPECT_NEAR(red({}), 0.3F, 1e-6F);
+    EXPECT_FLOAT_EQ(red({.table = 1}), 1.0F);
+    EXPECT_FLOAT_EQ(red({.table = 2}), 1.0F / 3.0F);
+    EXPECT_NEAR(red({.textures = 1, .filter = 8}), 1.0F, 1e-6F);  // of tex0 alone
+}
+
 // Against the formula in double precision, on the same corners. X = t / alpha has at most
 // 2 / alpha of range as texels of half a 65535th; h.X is off by 3 of these, its square twice that
 // times |h.X| <= 1, and there are two squares; the light and ks double it at most.
