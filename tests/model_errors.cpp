@@ -5,8 +5,6 @@
 #include <burnish/files.hpp>
 #include <burnish/materials.hpp>
 #include <burnish/renderer.hpp>
-#include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -17,43 +15,6 @@
 
 namespace burnish::lab {
 namespace {
-
-void set(Framebuffer& frame, int x, int y, const glm::vec4& value) {
-    std::memcpy(frame.row(y) + static_cast<std::size_t>(x) * sizeof value, &value, sizeof value);
-}
-
-Framebuffer covered(int width, int height, float value) {
-    Framebuffer frame(width, height, PixelFormat::rgba32f);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) set(frame, x, y, {value, value, value, 1.0F});
-    return frame;
-}
-
-// Of 4 x 3 pixels (1, 1) and (2, 1) have eight neighbours. Differences are +0.125 and -0.25:
-// squares 1/64 and 4/64, mean 2.5/64; the pair differs by 0.375, in the other picture by 0.
-TEST(FrameErrors, OfTwoInteriorPixels) {
-    const Framebuffer want = covered(4, 3, 0.5F);
-    Framebuffer got = covered(4, 3, 7.0F);
-    set(got, 1, 1, {0.625F, 0.625F, 0.625F, 0.0F});
-    set(got, 2, 1, {0.25F, 0.25F, 0.25F, 0.0F});
-    const metrics::FrameErrors errors = metrics::interior_errors(got, want);
-    EXPECT_EQ(errors.pixels, 2U);
-    EXPECT_DOUBLE_EQ(errors.rmse, std::sqrt(2.5 / 64.0));
-    EXPECT_DOUBLE_EQ(errors.bias, -0.0625);
-    EXPECT_DOUBLE_EQ(errors.largest, 0.25);
-    EXPECT_DOUBLE_EQ(errors.p99, 0.25);
-    EXPECT_DOUBLE_EQ(errors.step_excess, 0.375);
-}
-
-TEST(FrameErrors, AHoleIsSurroundedByNoInterior) {
-    Framebuffer want = covered(5, 5, 0.5F);
-    set(want, 2, 2, glm::vec4(0.0F));  // a neighbour of all nine pixels that are not on the border
-    const metrics::FrameErrors errors = metrics::interior_errors(covered(5, 5, 0.0F), want);
-    EXPECT_EQ(errors.pixels, 0U);
-    EXPECT_EQ(errors.rmse, 0.0);
-    EXPECT_EQ(metrics::interior_peak(want), 0.0);
-    EXPECT_EQ(metrics::interior_peak(covered(3, 3, 0.25F)), 0.25);
-}
 
 class OnIdeal : public testing::TestWithParam<int> {};
 

@@ -22,13 +22,14 @@ namespace {
 }
 
 /// `count` finite numbers with commas between them; `option` is for the message.
-std::vector<float> parse_numbers(const std::string& option, const std::string& text,
-                                 std::size_t least, std::size_t most) {
-    std::vector<float> values;
+template <class Number = float>
+std::vector<Number> parse_numbers(const std::string& option, const std::string& text,
+                                  std::size_t least, std::size_t most) {
+    std::vector<Number> values;
     const char* at = text.data();
     const char* const end = at + text.size();
     while (true) {
-        float value = 0.0F;
+        Number value = 0;
         const auto [stop, failure] = std::from_chars(at, end, value);
         const bool separated = stop == end || *stop == ',';
         if (failure != std::errc() || !separated || !std::isfinite(value)) break;
@@ -325,6 +326,115 @@ void add_bench(CLI::App& verb, BenchOptions& options) {
     add_aov(verb, options.shown);
 }
 
+metrics::Metric known_metric(const std::string& option, const std::string& name) {
+    const std::optional<metrics::Metric> metric = metrics::metric_named(name);
+    return metric ? *metric
+                  : *metrics::metric_named(known_word(option, name, metrics::metric_names()));
+}
+
+Threshold parse_threshold(const std::string& text) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos)
+        fail(fmt::format("--threshold {}, expected NAME=VALUE, such as rmse=0.01", text));
+    const std::string name = text.substr(0, sign);
+    const metrics::Metric metric = known_metric("--threshold", name);
+    const std::string number = text.substr(sign + 1);
+    return {metric, parse_numbers<double>("--threshold " + name, number, 1, 1).front()};
+}
+
+metrics::Exposures parse_exposures(const std::string& text) {
+    const std::vector<double> v = parse_numbers<double>("--exposures", text, 2, 3);
+    const double count = v.size() == 3 ? v[2] : std::max(2.0, std::ceil(v[1] - v[0]));
+    if (v[1] < v[0] || count != std::floor(count) || count < 1.0 || count > metrics::kMostExposures)
+        fail(fmt::format(
+            "--exposures {}, expected START,STOP[,COUNT] with START <= STOP and 1 .. {} "
+            "exposures",
+            text, metrics::kMostExposures));
+    return {v[0], v[1], static_cast<int>(count)};
+}
+
+void add_compare_measures(CLI::App& verb, metrics::CompareOptions& measured,
+                          std::vector<Threshold>& thresholds) {
+    verb.add_option_function<std::vector<std::string>>(
+            "--metric",
+            [&measured](const std::vector<std::string>& names) {
+                measured.metrics.clear();
+                for (const std::string& name : names)
+                    measured.metrics.push_back(known_metric("--metric", name));
+            },
+            fmt::format("Only these, with commas between them: {}",
+                        fmt::join(metrics::metric_names(), ", ")))
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    verb.add_option_function<std::vector<std::string>>(
+            "--threshold",
+            [&thresholds](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) thresholds.push_back(parse_threshold(text));
+            },
+            "Exit code 1 if a metric is worse; of bias and energy_ratio, the distance from 0 and 1")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("NAME=VALUE");
+    verb.add_option_function<std::string>(
+            "--mask",
+            [&measured](const std::string& word) {
+                known_word("--mask", word, {"all", "covered", "interior"});
+                measured.region = word == "all"       ? metrics::Region::all
+                                  : word == "covered" ? metrics::Region::covered
+                                                      : metrics::Region::interior;
+            },
+            "Pixels that count, by the reference's alpha: all, covered, or interior, whose eight "
+            "neighbours are covered, too")
+        ->type_name("WHICH");
+    verb.add_option("--pixels-per-degree", measured.flip.pixels_per_degree,
+                    "Of the viewer, for FLIP; default 67.02")
+        ->check(CLI::Range(metrics::kLeastPixelsPerDegree, metrics::kMostPixelsPerDegree))
+        ->type_name("PPD");
+    verb.add_option_function<std::string>(
+            "--encoding",
+            [&measured](const std::string& word) {
+                known_word("--encoding", word, {"srgb", "linear"});
+                measured.flip.encoding =
+                    word == "srgb" ? metrics::Encoding::srgb : metrics::Encoding::linear;
+            },
+            "What FLIP takes numbers for: srgb, as a screen shows them, the default; or linear")
+        ->type_name("CODE");
+    verb.add_option_function<std::string>(
+            "--exposures",
+            [&measured](const std::string& text) {
+                measured.flip.exposures = parse_exposures(text);
+            },
+            "Of flip_hdr in stops, instead of those that suit the reference")
+        ->type_name("START,STOP[,COUNT]");
+}
+
+void add_compare(CLI::App& verb, CompareOptions& options) {
+    verb.add_option("TEST", options.test, "Image file")->required()->type_name("");
+    verb.add_option("REFERENCE", options.reference, "Image file of the same size")
+        ->required()
+        ->type_name("");
+    add_compare_measures(verb, options.measured, options.thresholds);
+    verb.add_option("--difference", options.difference,
+                    "Image of test - reference: .exr the numbers, others grey where there is none")
+        ->type_name("FILE");
+    verb.add_option("--absolute-difference", options.absolute_difference,
+                    "Image of its size, black where there is none")
+        ->type_name("FILE");
+    verb.add_option("--gain", options.gain, "Multiplies both, but for .exr; default 1")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->type_name("G");
+    verb.add_option("--heat-map", options.heat_map,
+                    "Image of FLIP: colours from black to light yellow, .exr the numbers; of "
+                    "flip_hdr where --metric names that and not flip")
+        ->type_name("FILE");
+    verb.add_option("--threads", options.threads, "Workers, exactly that many; 0: one per core")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N");
+    CLI::Option* json = verb.add_flag("--json", options.json, "Print JSON");
+    verb.add_flag("--quiet", options.quiet, "Print errors only")->excludes(json);
+}
+
 /// The machines that run programs.
 std::vector<std::string_view> program_profiles() {
     std::vector<std::string_view> names = machine_profile_names();
@@ -448,6 +558,7 @@ struct Parser {
     RenderOptions render;
     TraceOptions trace;
     BenchOptions bench;
+    CompareOptions compare;
     CompileOptions compile;
     CompileModelOptions compile_model;
     InfoOptions info;
@@ -466,6 +577,8 @@ struct Parser {
         bake_verb->add_subcommand("anisotropy", "KHR_materials_anisotropy to our widths, and back");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
     CLI::App* bench_verb = app.add_subcommand("bench", "Times whole frames of a scene");
+    CLI::App* compare_verb =
+        app.add_subcommand("compare", "Measures how an image differs from its reference");
     CLI::App* compile_verb = app.add_subcommand(
         "compile", "Checks and prints program texts, or the program of a reflectance model");
     CLI::App* info_verb =
@@ -478,6 +591,7 @@ struct Parser {
         add_render(*render_verb, render);
         add_trace(*trace_verb, trace);
         add_bench(*bench_verb, bench);
+        add_compare(*compare_verb, compare);
         add_compile(*compile_verb, compile, compile_model);
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
@@ -499,6 +613,7 @@ struct Parser {
             return trace;
         }
         if (bench_verb->parsed()) return bench;
+        if (compare_verb->parsed()) return compare;
         if (compile_verb->parsed()) return what_to_compile();
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;

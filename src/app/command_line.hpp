@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "metrics/metrics.hpp"
+
 /// What the user asked for, as plain data; only command_line.cpp knows the parser.
 namespace burnish::app {
 
@@ -72,6 +74,22 @@ struct BenchOptions {
     bool json = false;
 };
 
+struct Threshold {
+    metrics::Metric metric;
+    double limit;
+};
+
+struct CompareOptions {
+    std::filesystem::path test, reference;
+    metrics::CompareOptions measured;
+    std::vector<Threshold> thresholds;
+    std::filesystem::path difference, absolute_difference, heat_map;  ///< empty: none
+    double gain = 1.0;                                                ///< of differences as bytes
+    int threads = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
 struct CompileOptions {
     std::filesystem::path combiners;
     std::filesystem::path texture_shader;  ///< empty: none
@@ -126,8 +144,8 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompileOptions,
-                             CompileModelOptions, InfoOptions, BakeBrushedOptions,
+using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
+                             CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
                              BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.

@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
         if (std::fflush(stdout) != 0)
             throw burnish::Error(burnish::ErrorCode::io, "standard output cannot be written");
         return 0;
+    } catch (const burnish::app::CheckFailed& check) {
+        for (const std::string& line : check.lines) report(line);
+        return std::fflush(stdout) == 0 ? 1 : 3;
     } catch (const burnish::app::BadInput& errors) {
         for (const std::string& line : errors.lines) report(line);
         return 3;

@@ -19,10 +19,19 @@ struct BadInput : std::exception {
     [[nodiscard]] const char* what() const noexcept override { return "bad input"; }
 };
 
+/// A comparison or check that came out wrong, told in one line each, exit code 1.
+struct CheckFailed : std::exception {
+    std::vector<std::string> lines;
+
+    explicit CheckFailed(std::vector<std::string> what) : lines(std::move(what)) {}
+    [[nodiscard]] const char* what() const noexcept override { return "check failed"; }
+};
+
 void run(const PrintText& text);
 void run(const RenderOptions& options);
 void run(const TraceOptions& options);
 void run(const BenchOptions& options);
+void run(const CompareOptions& options);
 void run(const CompileOptions& options);
 void run(const CompileModelOptions& options);
 void run(const InfoOptions& options);

@@ -121,7 +121,7 @@ Image read_integers(const std::filesystem::path& path) {
     return image;
 }
 
-/// OpenImageIO multiplies integers by a rounded reciprocal: every third quotient is another float.
+/// OpenImageIO multiplies by a rounded reciprocal, which makes another float of 126 bytes in 256.
 void divide_exactly(std::span<float> values, float largest) {
     for (float& value : values) value = std::round(value * largest) / largest;
 }

@@ -21,22 +21,29 @@ int radius_of(const std::vector<FilterBank::Pass>& passes) {
 }
 
 /// out[x] for x < width, a multiple of kBlock: `at` gives the row of an offset.
-template <class RowOfOffset>
+template <bool kOdd, class RowOfOffset>
 void filter_row(const Taps& taps, const RowOfOffset& at, double* out, int width) {
     const double* const centre = at(0);
-    const double first = taps.odd ? 0.0 : taps.weights[0];
-    const double sign = taps.odd ? -1.0 : 1.0;
     for (int x = 0; x < width; x += kBlock) {
         double sums[kBlock];
-        for (int i = 0; i < kBlock; ++i) sums[i] = first * centre[x + i];
+        for (int i = 0; i < kBlock; ++i) sums[i] = kOdd ? 0.0 : taps.weights[0] * centre[x + i];
         for (int k = 1; k <= taps.radius(); ++k) {
             const double weight = taps.weights[static_cast<std::size_t>(k)];
             const double* const after = at(k) + x;
             const double* const before = at(-k) + x;
-            for (int i = 0; i < kBlock; ++i) sums[i] += weight * (after[i] + sign * before[i]);
+            for (int i = 0; i < kBlock; ++i)
+                sums[i] += weight * (kOdd ? after[i] - before[i] : after[i] + before[i]);
         }
         std::copy_n(sums, kBlock, out + x);
     }
+}
+
+template <class RowOfOffset>
+void filter(const Taps& taps, const RowOfOffset& at, double* out, int width) {
+    if (taps.odd)
+        filter_row<true>(taps, at, out, width);
+    else
+        filter_row<false>(taps, at, out, width);
 }
 
 /// Rows of a band from top to bottom; what was filtered along rows is kept as long as columns need
@@ -90,7 +97,7 @@ class Band {
         int r = 0;
         for (const FilterBank::Pass& pass : m_bank.rows) {
             const double* const row = plane(pass.source);
-            filter_row(
+            filter(
                 pass.taps, [row](int k) { return row + k; }, filtered(y, r++), m_stride);
         }
     }
@@ -104,7 +111,7 @@ class Band {
                 m_around.push_back(filtered(y + k, pass.source));
             const double* const* const centre = m_around.data() + radius;
             double* const out = m_results.data() + c++ * static_cast<std::size_t>(m_stride);
-            filter_row(
+            filter(
                 pass.taps, [centre](int k) { return centre[k]; }, out, m_stride);
         }
         take(y, m_result_rows);

@@ -38,10 +38,13 @@ double luminance(const glm::dvec4& p) {
     return std::max(0.0, 0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b);
 }
 
-/// Of an ordered list that is not empty: the middle one, or the mean of the two in the middle.
-double median(const std::vector<double>& ordered) {
-    const std::size_t half = ordered.size() / 2;
-    return ordered.size() % 2 == 1 ? ordered[half] : 0.5 * (ordered[half - 1] + ordered[half]);
+/// Of a list that is not empty, which is reordered: the middle one, or the mean of the two in the
+/// middle.
+double median(std::vector<double>& values) {
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    if (values.size() % 2 == 1) return *half;
+    return 0.5 * (*std::max_element(values.begin(), half) + *half);
 }
 
 void check(const Exposures& e) {
@@ -62,13 +65,12 @@ Exposures exposures_for(const Framebuffer& reference) {
         for (int x = 0; x < reference.width(); ++x)
             if (const glm::dvec4 p = pixel(reference, x, y); finite(p))
                 luminances.push_back(luminance(p));
-    std::sort(luminances.begin(), luminances.end());
-    if (luminances.empty() || luminances.back() == 0.0) return {0.0, 0.0, 1};
-    const double brightest = luminances.back();
+    const double brightest =
+        luminances.empty() ? 0.0 : *std::max_element(luminances.begin(), luminances.end());
+    if (brightest == 0.0) return {0.0, 0.0, 1};
     double middle = median(luminances);
     if (middle == 0.0) {
-        luminances.erase(luminances.begin(),
-                         std::upper_bound(luminances.begin(), luminances.end(), 0.0));
+        std::erase(luminances, 0.0);
         middle = median(luminances);
     }
     const double x = mapped_to_target();
@@ -85,9 +87,9 @@ Plane flip_hdr(const Framebuffer& test, const Framebuffer& reference, const Flip
     for (int i = 0; i < e.count; ++i) {
         const double stops = e.start + i * (e.stop - e.start) / std::max(1, e.count - 1);
         const double factor = std::exp2(stops);
-        const auto to_linear = [factor](std::span<glm::dvec3> row) {
-            for (glm::dvec3& rgb : row)
-                for (int c = 0; c < 3; ++c) rgb[c] = tone_mapped(factor * std::max(0.0, rgb[c]));
+        const auto to_linear = [factor](const glm::dvec3& light) {
+            const glm::dvec3 x = factor * glm::max(light, 0.0);
+            return glm::dvec3(tone_mapped(x.r), tone_mapped(x.g), tone_mapped(x.b));
         };
         const Plane map = flip_map(test, reference, options.pixels_per_degree, to_linear, pool);
         for (std::size_t p = 0; p < map.values.size(); ++p)

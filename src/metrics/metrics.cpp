@@ -1,5 +1,7 @@
 #include "metrics/metrics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -155,6 +157,20 @@ bool is_worse(Metric metric, double value, double limit) {
             break;
     }
     return !(std::abs(value - 1.0) <= limit);
+}
+
+std::string limit_text(Metric metric, double limit) {
+    switch (property(metric).good) {
+        case Good::low:
+            return fmt::format("at most {}", limit);
+        case Good::high:
+            return fmt::format("at least {}", limit);
+        case Good::near_zero:
+            return fmt::format("0 +- {}", limit);
+        case Good::near_one:
+            break;
+    }
+    return fmt::format("1 +- {}", limit);
 }
 
 double psnr(double rmse) {

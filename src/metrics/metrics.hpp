@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,6 +48,8 @@ std::vector<std::string_view> metric_names();
 /// Where a limit lies: true if `value` is worse than `limit`, or is NaN. PSNR, SSIM and levels must
 /// not be below it, |bias| and |energy_ratio - 1| not above, the others not above.
 bool is_worse(Metric metric, double value, double limit);
+/// The same in words: "at most 0.01", "at least 30", "0 +- 0.01", "1 +- 0.1".
+std::string limit_text(Metric metric, double limit);
 
 struct CompareOptions {
     Region region = Region::all;
