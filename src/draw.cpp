@@ -177,7 +177,7 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t
     const glm::vec3 color = source.color * source.intensity;
     const glm::vec3 ambient = light == 0 ? scene.ambient : glm::vec3(0.0F);
     // Maps that were made for the talk's model are its material layer.
-    if (material->model == Model::abp_modified && material->tangent_map)
+    if (material->model == Model::abp_modified && material->tangent_map && !material->mipmaps)
         return compile_abp_modified(*material, machine, color, ambient, maps);
     return maps.models.get(material, machine, color, ambient).program;
 }

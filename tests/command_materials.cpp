@@ -35,6 +35,38 @@ TEST_F(Command, BakedMaterialIsTheGeneratedOne) {
     }
 }
 
+TEST_F(Command, BakedLevelsAreThoseOfTheMethod) {
+    ASSERT_EQ(run("bake mips --set weave --seed 3 --size 12 --method moments --bits 16 -o m").code,
+              0);
+    Material made = generated_material("weave", 3, 12);
+    made.mipmaps = MaterialMipmaps{MipMethod::moments, 16};
+    const TexelSource want(made), read(load_material(path("m/material.toml")));
+    ASSERT_EQ(read.levels(), 4);
+    const auto expect_near = [](const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(a[c], b[c], tolerance);
+    };
+    for (int level = 0; level < 4; ++level) {
+        ASSERT_EQ(read.width(level), want.width(level));
+        for (int y = 0; y < want.height(level); ++y) {
+            for (int x = 0; x < want.width(level); ++x) {
+                const TexelParameters a = read.at(level, x, y), b = want.at(level, x, y);
+                expect_near(a.n, b.n, 5e-5);
+                expect_near(a.t, b.t, 1e-4);
+                expect_near(a.ks, b.ks, 2e-5);
+                expect_near(a.kd, b.kd, 2e-5);
+                expect_near({a.alpha_x, a.alpha_y, 0.0}, {b.alpha_x, b.alpha_y, 0.0}, 2e-5);
+                ASSERT_NEAR(a.exponent, b.exponent, 1e-3);
+            }
+        }
+    }
+    // The baked file itself is a material like any other.
+    ASSERT_EQ(run("bake mips m/material.toml --method lean -o n").code, 0);
+    EXPECT_EQ(TexelSource(load_material(path("n/material.toml"))).levels(), 4);
+    EXPECT_EQ(run("bake mips -o n").code, 2);
+    EXPECT_EQ(run("bake mips --set weave --method maps -o n").code, 2);
+    EXPECT_EQ(run("bake mips missing.toml -o n").code, 3);
+}
+
 TEST_F(Command, BakedMaterialBringsItsTruth) {
     ASSERT_EQ(run("bake material lathe --size 8 -o d").code, 0);
     std::vector<std::string> names;

@@ -248,7 +248,7 @@ TEST(Texel, QuantitiesOfARowAreThoseOfItsTexels) {
     for (const std::size_t most_kept : {std::size_t{0}, std::size_t{5000}, std::size_t{1} << 20}) {
         TexelQuantities texels(quantities, source, most_kept);
         for (const int y : {9, 0, 15, 9, 1, 0}) {
-            texels.seek(y);
+            texels.seek(0, y);
             double tilt = 0.0;
             for (int x = 0; x < source.width(); ++x) {
                 const TexelParameters p = source.at(x, y);

@@ -111,6 +111,20 @@ Model known_model(const std::string& name) {
     return model ? *model : *model_named(known_word("--model", name, model_names()));
 }
 
+/// METHOD or METHOD:BITS.
+MaterialMipmaps parse_mipmaps(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::string name = text.substr(0, colon);
+    MaterialMipmaps mipmaps;
+    mipmaps.method = *mip_method_named(known_word("--mipmaps", name, mip_method_names()));
+    if (colon == std::string::npos) return mipmaps;
+    const std::string bits = text.substr(colon + 1);
+    if (bits != "8" && bits != "16" && bits != "32")
+        fail(fmt::format("--mipmaps {}, expected 8, 16 or 32 bits after the colon", text));
+    mipmaps.bits = std::stoi(bits);
+    return mipmaps;
+}
+
 Register parse_register(const std::string& name) {
     std::vector<std::string_view> known;
     for (int r = 0; r < static_cast<int>(Register::discard); ++r) {
@@ -229,6 +243,13 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             "--model", [&picture](const std::string& name) { picture.model = known_model(name); },
             "Reflectance model of every mesh, instead of its material's; `burnish info` lists them")
         ->type_name("NAME");
+    verb.add_option_function<std::string>(
+            "--mipmaps",
+            [&picture](const std::string& text) { picture.mipmaps = parse_mipmaps(text); },
+            "How mip levels of every reflectance model's parameters are made: none, maps, box, "
+            "normalize, mag, toksvig, clean, lean, moments, moments_unweighted; their moments "
+            "stored in 8, 16 or 32 bits")
+        ->type_name("METHOD[:BITS]");
     verb.add_flag("--multipass", picture.multipass,
                   "Split programs that need more than the machine has into passes");
     verb.add_option_function<std::string>(
@@ -518,6 +539,45 @@ void add_bake_material(CLI::App& verb, BakeMaterialOptions& options) {
         ->type_name("DIR");
 }
 
+void add_bake_mips(CLI::App& verb, BakeMipsOptions& options) {
+    CLI::Option* file =
+        verb.add_option("MATERIAL.toml", options.material, "Material file")->type_name("");
+    CLI::Option* set =
+        verb.add_option_function<std::string>(
+                "--set",
+                [&options](const std::string& word) {
+                    options.set = known_word("--set", word, generated_set_names());
+                },
+                "A generated set instead: brushed, lathe, cross_hatch, sunburst, orbital, "
+                "corrosion, fingerprint or weave")
+            ->excludes(file)
+            ->type_name("NAME");
+    verb.add_option("--seed", options.seed, "Another seed gives other marks")
+        ->needs(set)
+        ->type_name("N");
+    verb.add_option("--size", options.size, "Side of the square maps in texels")
+        ->check(CLI::Range(1, kMaxGeneratedSize))
+        ->needs(set)
+        ->type_name("N");
+    verb.add_option_function<std::string>(
+            "--method",
+            [&options](const std::string& word) {
+                std::vector<std::string_view> known = mip_method_names();
+                std::erase(known, "none");
+                std::erase(known, "maps");
+                options.mipmaps.method = *mip_method_named(known_word("--method", word, known));
+            },
+            "box, normalize, mag, toksvig, clean, lean, moments or moments_unweighted; moments")
+        ->type_name("METHOD");
+    verb.add_option("--bits", options.mipmaps.bits,
+                    "Bits that moments are stored in, else double precision")
+        ->check(CLI::IsMember({8, 16, 32}))
+        ->type_name("N");
+    verb.add_option("-o,--output", options.output, "Directory, made if it is not there")
+        ->required()
+        ->type_name("DIR");
+}
+
 void add_bake_anisotropy(CLI::App& verb, BakeAnisotropyOptions& options) {
     verb.add_option("--roughness", options.roughness, "glTF's roughnessFactor, default 1")
         ->check(CLI::Range(0.0, 1.0))
@@ -564,6 +624,7 @@ struct Parser {
     InfoOptions info;
     BakeBrushedOptions brushed;
     BakeMaterialOptions material;
+    BakeMipsOptions mips;
     BakeAnisotropyOptions anisotropy;
     BakeMeshOptions mesh;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
@@ -573,6 +634,8 @@ struct Parser {
     CLI::App* brushed_verb = bake_verb->add_subcommand("brushed", "Maps of brushed steel as PNG");
     CLI::App* material_verb = bake_verb->add_subcommand(
         "material", "A generated material: maps, material file, true parameters");
+    CLI::App* mips_verb =
+        bake_verb->add_subcommand("mips", "A material's maps with mip levels of its parameters");
     CLI::App* anisotropy_verb =
         bake_verb->add_subcommand("anisotropy", "KHR_materials_anisotropy to our widths, and back");
     CLI::App* mesh_verb = bake_verb->add_subcommand("mesh", "A test mesh");
@@ -596,6 +659,7 @@ struct Parser {
         info_verb->add_flag("--json", info.json, "Print JSON");
         add_bake_brushed(*brushed_verb, brushed);
         add_bake_material(*material_verb, material);
+        add_bake_mips(*mips_verb, mips);
         add_bake_anisotropy(*anisotropy_verb, anisotropy);
         add_bake_mesh(*mesh_verb, mesh);
     }
@@ -604,6 +668,11 @@ struct Parser {
         if (!compile.combiners.empty()) return compile;
         if (compile_model.model || !compile_model.material.empty()) return compile_model;
         fail("compile: expected FILE.rc, --model NAME or --material FILE");
+    }
+
+    Command what_to_filter() const {
+        if (!mips.material.empty() || !mips.set.empty()) return mips;
+        fail("bake mips: expected MATERIAL.toml or --set NAME");
     }
 
     Command chosen() const {
@@ -618,6 +687,7 @@ struct Parser {
         if (info_verb->parsed()) return info;
         if (brushed_verb->parsed()) return brushed;
         if (material_verb->parsed()) return material;
+        if (mips_verb->parsed()) return what_to_filter();
         if (anisotropy_verb->parsed()) return anisotropy;
         return mesh;
     }

@@ -31,6 +31,8 @@ struct PictureOptions {
     std::optional<std::string> machine;
     std::filesystem::path material;  ///< instead of the meshes' own, if not empty
     std::optional<Model> model;      ///< instead of the materials' own
+    /// Instead of the materials' own.
+    std::optional<MaterialMipmaps> mipmaps;
     bool multipass = false;
     std::optional<std::string> half_vector;  ///< of choose_half_vector
     CameraOptions camera;
@@ -121,6 +123,16 @@ struct BakeMaterialOptions {
     std::filesystem::path output;  ///< a directory, made if need be
 };
 
+/// A material file or a generated set.
+struct BakeMipsOptions {
+    std::filesystem::path material;  ///< empty: the set
+    std::string set;                 ///< one of generated_set_names()
+    std::uint32_t seed = 1;
+    int size = 512;
+    MaterialMipmaps mipmaps{MipMethod::moments};
+    std::filesystem::path output;  ///< a directory, made if need be
+};
+
 /// One of three sources: what glTF says, as numbers or textures; two widths; a material file.
 struct BakeAnisotropyOptions {
     std::optional<double> roughness, strength, rotation;  ///< glTF's factors; radians
@@ -144,9 +156,10 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
-                             CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
-                             BakeMaterialOptions, BakeAnisotropyOptions, BakeMeshOptions>;
+using Command =
+    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
+                 CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
+                 BakeMaterialOptions, BakeMipsOptions, BakeAnisotropyOptions, BakeMeshOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

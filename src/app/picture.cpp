@@ -67,7 +67,7 @@ void apply_camera(const CameraOptions& options, Camera& camera) {
     if (options.elevation != 0.0F) camera = raised(camera, options.elevation);
 }
 
-/// What --material and --model ask for, of every object that is a mesh.
+/// What --material, --model and --mipmaps ask for, of every object that is a mesh.
 void replace_materials(const PictureOptions& options, Scene& scene) {
     std::shared_ptr<const Material> replacement;
     if (!options.material.empty())
@@ -76,16 +76,22 @@ void replace_materials(const PictureOptions& options, Scene& scene) {
     for (Object& object : scene.objects) {
         if (!std::holds_alternative<Mesh>(object.geometry)) continue;
         if (replacement) object.material = replacement;
-        if (!options.model) continue;
-        if (object.material && object.material->program)
+        const bool is_pipeline = object.material && object.material->program;
+        if (options.model && is_pipeline)
             throw Error(ErrorCode::bad_option,
                         fmt::format("--model: material '{}' is a pipeline, expected one with a "
                                     "reflectance model",
                                     object.material->name));
+        if (is_pipeline || !(options.model || options.mipmaps)) continue;
         std::shared_ptr<const Material>& copy = changed[object.material.get()];
         if (!copy) {
             Material material = object.material ? *object.material : Material{};
-            material.model = *options.model;
+            material.model = options.model.value_or(material.model);
+            if (options.mipmaps) {
+                const int probes = material.mipmaps ? material.mipmaps->max_anisotropy : 1;
+                material.mipmaps = options.mipmaps;
+                material.mipmaps->max_anisotropy = probes;
+            }
             copy = std::make_shared<const Material>(std::move(material));
         }
         object.material = copy;

@@ -37,6 +37,7 @@ void run(const CompileModelOptions& options);
 void run(const InfoOptions& options);
 void run(const BakeBrushedOptions& options);
 void run(const BakeMaterialOptions& options);
+void run(const BakeMipsOptions& options);
 void run(const BakeAnisotropyOptions& options);
 void run(const BakeMeshOptions& options);
 

@@ -14,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::string_view, 40> kKeys{"name",
+constexpr std::array<std::string_view, 43> kKeys{"name",
                                                  "model",
                                                  "model_text",
                                                  "kd",
@@ -35,6 +35,9 @@ constexpr std::array<std::string_view, 40> kKeys{"name",
                                                  "encoding",
                                                  "normal_y",
                                                  "srgb_colors",
+                                                 "mipmaps",
+                                                 "mipmap_bits",
+                                                 "max_anisotropy",
                                                  "generator",
                                                  "seed",
                                                  "size",
@@ -58,7 +61,7 @@ constexpr std::array<std::string_view, 40> kKeys{"name",
 constexpr std::span<const std::string_view> kFileKeys(kKeys.data(), kKeys.size() - 1);
 
 /// Those of read_reflectance().
-constexpr std::span<const std::string_view> kReflectanceKeys(kKeys.data() + 1, 20);
+constexpr std::span<const std::string_view> kReflectanceKeys(kKeys.data() + 1, 23);
 
 AlphaTest read_alpha_test(const Section& section, AlphaTest test) {
     test.reference = section.number("alpha_ref", kUnit).value_or(test.reference);
@@ -111,6 +114,12 @@ Material read_material(const Section& section, const TextureTable& textures,
     if (!material.program) {
         read_reflectance(section, textures, material);
         return material;
+    }
+    for (const std::string_view key : {"mipmaps", "mipmap_bits", "max_anisotropy"}) {
+        if (section.has(key))
+            section.fail(key, fmt::format("'{}' in {}, which is a pipeline, expected a reflectance "
+                                          "model",
+                                          key, section.label()));
     }
     for (const std::string_view key : kReflectanceKeys) {
         if (section.has("file") && section.has(key))

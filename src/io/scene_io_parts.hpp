@@ -34,6 +34,8 @@ struct NamedTexture {
     float map_scale = 0.0F;  ///< m of a generated tangent or bitangent map, else 0
     /// What alpha_x, alpha_y and exponent mean in the channels r, g, b of a generated alpha map.
     std::optional<std::array<CodedRange, 3>> ranges{};
+    /// What it asks of the materials whose parameter it is; the texture itself has no levels then.
+    std::optional<MipMethod> mipmaps{};
 };
 using TextureTable = std::map<std::string, NamedTexture, std::less<>>;
 
@@ -68,6 +70,9 @@ Material read_one_material(const Section& root, const TextureTable& textures,
 
 /// Reads the keys of a reflectance model onto a material; those that are missing leave it as it is.
 void read_reflectance(const Section& section, const TextureTable& textures, Material& material);
+
+/// Reads `mipmaps`, `mipmap_bits` and `max_anisotropy`; without the former the maps of the section decide.
+void read_mipmaps(const Section& section, const TextureTable& textures, Material& material);
 
 /// The pipeline of a material with `units` or `combiners`; nothing if it has neither.
 std::optional<ProgramMaterial> read_program(const Section& section, const TextureTable& textures,

@@ -67,6 +67,10 @@ std::vector<TexturePtr> read_units(const Section& section, const TextureTable& t
             section.fail("units", fmt::format("'units' in {} names the unknown texture '{}', {}",
                                               section.label(), name,
                                               expected_one_of(name, names_of(textures))));
+        if (!name.empty() && found->second.mipmaps)
+            section.fail("units", fmt::format("'units' in {} names '{}', whose 'mipmaps' are those "
+                                              "of a reflectance model, expected none, box or files",
+                                              section.label(), name));
         units.push_back(name.empty() ? nullptr : found->second.texture);
     }
     return units;

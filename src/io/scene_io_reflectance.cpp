@@ -220,6 +220,7 @@ void read_reflectance(const Section& section, const TextureTable& textures, Mate
         material.normal_map = map->texture;
     read_direction(section, textures, material);
     read_vector_maps(section, textures, material);
+    read_mipmaps(section, textures, material);
 }
 
 }  // namespace burnish

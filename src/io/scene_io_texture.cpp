@@ -61,8 +61,6 @@ constexpr std::array<std::pair<std::string_view, Wrap>, 4> kWraps{
      {"mirrored_repeat", Wrap::mirrored_repeat}}};
 
 enum class MipmapSource { none, box, files };
-constexpr std::array<std::pair<std::string_view, MipmapSource>, 3> kMipmaps{
-    {{"none", MipmapSource::none}, {"box", MipmapSource::box}, {"files", MipmapSource::files}}};
 
 using BrushedMap = Image8 BrushedMaps::*;
 constexpr std::array<std::pair<std::string_view, BrushedMap>, 4> kBrushedMaps{
@@ -268,7 +266,7 @@ NamedTexture read_generated(const Section& section, TextureDescription descripti
     };
     only(description.format == TexelFormat::rgba8, "format", "rgba8");
     only(description.target == TextureTarget::two_d, "target", "2d");
-    only(mipmaps != MipmapSource::files, "mipmaps", "none or box");
+    only(mipmaps != MipmapSource::files, "mipmaps", "a method");
     description.box_mipmaps = mipmaps == MipmapSource::box;
     const std::string generator = section.text("generator").value();
     // Two of the default picture's maps have no counterpart in other sets, and "normal" is as old.
@@ -292,17 +290,29 @@ NamedTexture read_generated(const Section& section, TextureDescription descripti
     return named;
 }
 
-MipmapSource read_mipmaps(const Section& section) {
-    for (const char* later : {"normalize", "toksvig", "lean", "moments"}) {
-        if (section.text("mipmaps").value_or("") == later) section.refuse({"mipmaps"});
-    }
-    const MipmapSource mipmaps =
-        section.choice<MipmapSource>("mipmaps", kMipmaps).value_or(MipmapSource::none);
-    if ((mipmaps == MipmapSource::files) != section.has("mip_files"))
+/// Where the texture's own levels come from, and what it asks of its materials.
+struct Mipmaps {
+    MipmapSource source = MipmapSource::none;
+    std::optional<MipMethod> of_materials{};
+};
+
+Mipmaps mipmaps_of(const Section& section) {
+    const std::string word = section.text("mipmaps").value_or("none");
+    if ((word == "files") != section.has("mip_files"))
         section.fail("mip_files", fmt::format("'mip_files' and mipmaps = \"files\" in {} go "
                                               "together, expected both or neither",
                                               section.label()));
-    return mipmaps;
+    if (word == "files") return {MipmapSource::files};
+    const std::optional<MipMethod> method = mip_method_named(word);
+    if (!method || *method == MipMethod::maps) {
+        std::vector<std::string_view> known = mip_method_names();
+        std::erase(known, "maps");
+        known.emplace_back("files");
+        section.fail_unknown_word("mipmaps", word, known);
+    }
+    if (*method == MipMethod::none) return {};
+    if (*method == MipMethod::box) return {MipmapSource::box};
+    return {MipmapSource::none, method};
 }
 
 NamedTexture read_texture(const Section& section, const std::filesystem::path& directory,
@@ -324,14 +334,17 @@ NamedTexture read_texture(const Section& section, const std::filesystem::path& d
     description.sampler = read_sampler(section, description.target);
     description.format =
         section.choice<TexelFormat>("format", kTexelFormats).value_or(TexelFormat::rgba8);
-    const MipmapSource mipmaps = read_mipmaps(section);
-    if (section.has("generator")) return read_generated(section, description, mipmaps, sets);
+    const Mipmaps mipmaps = mipmaps_of(section);
     // hilo8 and its signed relative are stored as bytes.
     const bool words = description.format == TexelFormat::rgba16 ||
                        description.format == TexelFormat::hilo16 ||
                        description.format == TexelFormat::signed_hilo16;
-    return words ? read_images<Image16>(section, description, mipmaps, directory)
-                 : read_images<Image8>(section, description, mipmaps, directory);
+    NamedTexture named =
+        section.has("generator") ? read_generated(section, description, mipmaps.source, sets)
+        : words ? read_images<Image16>(section, description, mipmaps.source, directory)
+                : read_images<Image8>(section, description, mipmaps.source, directory);
+    named.mipmaps = mipmaps.of_materials;
+    return named;
 }
 
 }  // namespace

@@ -27,43 +27,46 @@ int vector_code(double x, TexelCoding coding) {
     return static_cast<int>(std::clamp(127.5 * x + 128.0, 0.0, 255.0));
 }
 
-/// Channels of a texture, whichever texels it has.
+/// Channels of a texture and its levels, whichever texels it has.
 class TexelImage {
   public:
-    TexelImage(int width, int height, TexelCoding coding)
-        : m_is_words(coding != TexelCoding::bytes) {
+    explicit TexelImage(TexelCoding coding) : m_is_words(coding != TexelCoding::bytes) {}
+
+    void add_level(int width, int height) {
         if (m_is_words) {
-            m_words = Image16(width, height);
+            m_words.emplace_back(width, height);
         } else {
-            m_bytes = Image8(width, height);
+            m_bytes.emplace_back(width, height);
         }
     }
+    /// In the last level.
     void put(int x, int y, int channel, int code) {
         if (m_is_words) {
-            m_words.at(x, y)[channel] = static_cast<std::uint16_t>(code);
+            m_words.back().at(x, y)[channel] = static_cast<std::uint16_t>(code);
         } else {
-            m_bytes.at(x, y)[channel] = static_cast<std::uint8_t>(code);
+            m_bytes.back().at(x, y)[channel] = static_cast<std::uint8_t>(code);
         }
     }
     TexturePtr texture(const TextureDescription& of) const {
         TextureDescription description = of;
         if (m_is_words) {
             description.format = TexelFormat::rgba16;
-            return std::make_shared<const Texture>(std::span(&m_words, 1), description);
+            return std::make_shared<const Texture>(std::span(m_words), description);
         }
-        return std::make_shared<const Texture>(std::span(&m_bytes, 1), description);
+        return std::make_shared<const Texture>(std::span(m_bytes), description);
     }
 
   private:
     bool m_is_words;
-    Image8 m_bytes;
-    Image16 m_words;
+    std::vector<Image8> m_bytes;
+    std::vector<Image16> m_words;
 };
 
 TexturePtr table_texture(const PlanTable& table, TexelCoding coding) {
     const int width = table.axes[0].size;
     const int height = table.axes.size() == 2 ? table.axes[1].size : 1;
-    TexelImage image(width, height, coding);
+    TexelImage image(coding);
+    image.add_level(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const double value = table.values[static_cast<std::size_t>(y * width + x)];
@@ -151,25 +154,32 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
     std::vector<std::unique_ptr<TexelImage>> images(baked.units.size());
     for (const QuantityPlace& place : schedule.quantities) {
         auto& image = images[static_cast<std::size_t>(place.unit)];
-        if (!image) image = std::make_unique<TexelImage>(source.width(), source.height(), coding);
+        if (!image) image = std::make_unique<TexelImage>(coding);
     }
-    for (int y = 0; y < source.height(); ++y) {
-        if (!plan.quantities.empty()) texels.seek(y);
-        for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
-            const PlanQuantity& q = plan.quantities[i];
-            const QuantityPlace& place = schedule.quantities[i];
-            TexelImage& image = *images[static_cast<std::size_t>(place.unit)];
-            for (int c = 0; c < (place.alpha ? 1 : 3); ++c)
-                write_row(q, c, texels.component(*q.expr, c), coding,
-                          [&](int x, int code) { image.put(x, y, place.alpha ? 3 : c, code); });
+    const int levels = plan.quantities.empty() ? 0 : source.levels();
+    for (int level = 0; level < levels; ++level) {
+        for (const auto& image : images) {
+            if (image) image->add_level(source.width(level), source.height(level));
+        }
+        for (int y = 0; y < source.height(level); ++y) {
+            texels.seek(level, y);
+            for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
+                const PlanQuantity& q = plan.quantities[i];
+                const QuantityPlace& place = schedule.quantities[i];
+                TexelImage& image = *images[static_cast<std::size_t>(place.unit)];
+                for (int c = 0; c < (place.alpha ? 1 : 3); ++c)
+                    write_row(q, c, texels.component(*q.expr, c), coding,
+                              [&](int x, int code) { image.put(x, y, place.alpha ? 3 : c, code); });
+            }
         }
     }
     for (std::size_t i = 0; i < images.size(); ++i) {
         if (!images[i]) continue;
-        baked.units[i] =
-            images[i]->texture({.sampler = source.sampler(), .box_mipmaps = source.has_levels()});
+        baked.units[i] = images[i]->texture(
+            {.sampler = source.sampler(), .box_mipmaps = source.averages_layer()});
     }
-    if (coding == TexelCoding::words && !source.has_levels()) gather_quartets(baked.units);
+    const bool has_levels = source.averages_layer() || source.levels() > 1;
+    if (coding == TexelCoding::words && !has_levels) gather_quartets(baked.units);
     for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
         LayerQuantity d = description(plan.quantities[i], coding);
         d.texture = baked.units[static_cast<std::size_t>(schedule.quantities[i].unit)];

@@ -5,26 +5,29 @@
 
 namespace burnish {
 
-/// Level 0 of a material map, looked at from the texel centres of a grid of another size. Weights
+/// A level of a material map, looked at from the texel centres of a grid of another size. Weights
 /// are exact: positions are fractions of integers.
 class MapSampler {
   public:
     /// Looks at `map`, two-dimensional, from a grid of width x height.
-    MapSampler(const Texture& map, int width, int height)
-        : m_map(&map), m_width(width), m_height(height) {}
+    MapSampler(const Texture& map, std::size_t level, int width, int height)
+        : m_sampler(&map.sampler()),
+          m_level(map.levels()[level]),
+          m_width(width),
+          m_height(height) {}
 
     /// The map at the centre of the grid's texel (x, y), filtered as its sampler says where texels
     /// are larger than pixels. `value_of(i, j)` is what the map's texel (i, j) stands for; with
     /// (-1, -1) it is asked for the border. Of a grid of the map's size it is value_of(x, y).
     template <class ValueOf>
     [[nodiscard]] auto at(int x, int y, const ValueOf& value_of) const {
-        if (m_width == m_map->width() && m_height == m_map->height()) return value_of(x, y);
-        const Sampler& sampler = m_map->sampler();
-        const Axis s = axis(x, m_width, m_map->width());
-        const Axis t = axis(y, m_height, m_map->height());
+        if (m_width == m_level.width && m_height == m_level.height) return value_of(x, y);
+        const Sampler& sampler = *m_sampler;
+        const Axis s = axis(x, m_width, m_level.width);
+        const Axis t = axis(y, m_height, m_level.height);
         const auto value = [&](int i, int j) {
-            const int column = wrapped(i, m_map->width(), sampler.wrap_s);
-            const int row = wrapped(j, m_map->height(), sampler.wrap_t);
+            const int column = wrapped(i, m_level.width, sampler.wrap_s);
+            const int row = wrapped(j, m_level.height, sampler.wrap_t);
             return column < 0 || row < 0 ? value_of(-1, -1) : value_of(column, row);
         };
         if (!sampler.mag_is_linear()) return value(s.nearest, t.nearest);
@@ -47,7 +50,8 @@ class MapSampler {
     /// -1: the border.
     static int wrapped(int at, int size, Wrap wrap);
 
-    const Texture* m_map;
+    const Sampler* m_sampler;
+    TextureLevel m_level;
     int m_width, m_height;
 };
 

@@ -115,18 +115,21 @@ std::vector<const Expr*> MaterialTerms::roots() const {
 
 void MaterialTerms::look_at_texels(const std::string& material) {
     const std::vector<const Expr*>& all = m_texels.quantities();
-    for (int y = 0; y < m_source.height(); ++y) {
-        m_texels.seek(y);
-        m_most_tilt = std::max(m_most_tilt, m_texels.tilt());
-        auto unbounded = static_cast<std::size_t>(m_source.width());
-        const Expr* cause = nullptr;
-        for (const Expr* q : all) {
-            const std::size_t x = first_unbounded(m_texels, *q);
-            if (x < unbounded) cause = q;
-            unbounded = std::min(unbounded, x);
+    for (int level = 0; level < m_source.levels(); ++level) {
+        for (int y = 0; y < m_source.height(level); ++y) {
+            m_texels.seek(level, y);
+            m_most_tilt = std::max(m_most_tilt, m_texels.tilt());
+            auto unbounded = static_cast<std::size_t>(m_source.width(level));
+            const Expr* cause = nullptr;
+            for (const Expr* q : all) {
+                const std::size_t x = first_unbounded(m_texels, *q);
+                if (x < unbounded) cause = q;
+                unbounded = std::min(unbounded, x);
+            }
+            if (cause != nullptr) fail_unbounded(*cause, material);
+            for (const Expr* q : all)
+                include_row(m_quantities[q], m_texels, *q, level == 0 && y == 0);
         }
-        if (cause != nullptr) fail_unbounded(*cause, material);
-        for (const Expr* q : all) include_row(m_quantities[q], m_texels, *q, y == 0);
     }
 }
 

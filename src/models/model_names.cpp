@@ -19,6 +19,18 @@ constexpr std::array<std::pair<std::string_view, Model>, 12> kModels{
      {"ashikhmin_shirley", Model::ashikhmin_shirley},
      {"ggx", Model::ggx}}};
 
+constexpr std::array<std::pair<std::string_view, MipMethod>, 10> kMipMethods{
+    {{"none", MipMethod::none},
+     {"maps", MipMethod::maps},
+     {"box", MipMethod::box},
+     {"normalize", MipMethod::normalize},
+     {"mag", MipMethod::mag},
+     {"toksvig", MipMethod::toksvig},
+     {"clean", MipMethod::clean},
+     {"lean", MipMethod::lean},
+     {"moments", MipMethod::moments},
+     {"moments_unweighted", MipMethod::moments_unweighted}}};
+
 }  // namespace
 
 std::vector<std::string_view> model_names() {
@@ -39,6 +51,19 @@ std::optional<Model> model_named(std::string_view name) {
     if (name == "anisotropic-blinn-phong-modified") return Model::abp_modified;
     for (const auto& [known, model] : kModels) {
         if (known == name) return model;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string_view> mip_method_names() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, method] : kMipMethods) names.push_back(name);
+    return names;
+}
+
+std::optional<MipMethod> mip_method_named(std::string_view name) {
+    for (const auto& [known, method] : kMipMethods) {
+        if (known == name) return method;
     }
     return std::nullopt;
 }

@@ -2,15 +2,22 @@
 
 #include <burnish/scene.hpp>
 #include <glm/glm.hpp>
+#include <memory>
+#include <vector>
 
 namespace burnish {
+
+namespace mips {
+struct ParameterGrid;
+}
 
 /// The widths that lobes are kept within, whatever a map says.
 inline constexpr double kLeastAlpha = 0.001;
 inline constexpr double kMostAlpha = 1.0;
 
-/// What a material says at one texel. Vectors are unit and orthonormal, in the surface's tangent
-/// frame: x along u, y towards smaller rows, z along the normal; b = n x t.
+/// What a material says at one texel. Vectors are unit and orthonormal, but for what
+/// MipMethod::box leaves of them, in the surface's tangent frame: x along u, y towards smaller
+/// rows, z along the normal; b = n x t.
 struct TexelParameters {
     glm::dvec3 n{0.0, 0.0, 1.0}, t{1.0, 0.0, 0.0}, b{0.0, 1.0, 0.0};
     double alpha_x = 1.0, alpha_y = 1.0;  ///< [kLeastAlpha, kMostAlpha]
@@ -25,7 +32,7 @@ struct TexelParameters {
 /// The parameters of a material texel by texel, on the grid of its finest map: the one with the
 /// most texels. Other maps are sampled at its texel centres with their own filter, vectors and
 /// colours after decoding. In double, of + - * / and sqrt and core/dmath.hpp alone: the same bits
-/// everywhere.
+/// everywhere. Mip levels are those of Material::mipmaps; there are none without it.
 ///
 /// The tangent is direction_map's, by default the u axis, made perpendicular to the normal. Where
 /// tangent_map and bitangent_map are given, they say tangent and widths instead, and without a
@@ -37,29 +44,48 @@ class TexelSource {
     explicit TexelSource(const Material& material);
 
     /// 1 x 1 without maps.
-    [[nodiscard]] int width() const { return m_width; }
-    [[nodiscard]] int height() const { return m_height; }
-    /// Of the finest map.
+    [[nodiscard]] int width(int level = 0) const;
+    [[nodiscard]] int height(int level = 0) const;
+    /// At least 1.
+    [[nodiscard]] int levels() const;
+    /// Of the finest map; with mipmaps one that blends levels, if the map's does not look at them,
+    /// and one that does not look at them for MipMethod::none.
     [[nodiscard]] const Sampler& sampler() const { return m_sampler; }
-    /// Whether any map has mip levels; what is made from texels has them then, too.
-    [[nodiscard]] bool has_levels() const { return m_has_levels; }
+    /// As in MaterialMipmaps.
+    [[nodiscard]] int max_anisotropy() const {
+        return m_material.mipmaps ? m_material.mipmaps->max_anisotropy : 1;
+    }
+    /// Whether what is made from texels is to be averaged itself: maps have mip levels, and the
+    /// material does not say how.
+    [[nodiscard]] bool averages_layer() const { return m_averages_layer; }
     /// Whether there is any map.
     [[nodiscard]] bool varies() const { return m_varies; }
     /// 0 <= x < width(), 0 <= y < height(); row 0 on top. Safe from several threads.
     [[nodiscard]] TexelParameters at(int x, int y) const;
+    [[nodiscard]] TexelParameters at(int level, int x, int y) const;
 
   private:
-    [[nodiscard]] double parameter(const ParameterMap& map, float constant, int x, int y) const;
-    [[nodiscard]] glm::dvec3 color(const TexturePtr& map, const glm::vec3& factor, int x,
-                                   int y) const;
-    [[nodiscard]] glm::dvec3 vector(const TexturePtr& map, VectorEncoding encoding, int x,
-                                    int y) const;
-    [[nodiscard]] glm::dvec3 normal(int x, int y) const;
+    void make_mips();
+    [[nodiscard]] std::vector<mips::ParameterGrid> mips_of_maps() const;
+    /// Of a level of the maps, in its grid.
+    struct MapLevel {
+        int level, width, height;
+    };
+    [[nodiscard]] TexelParameters read(const MapLevel& in, int x, int y) const;
+    [[nodiscard]] double parameter(const ParameterMap& map, float constant, const MapLevel& in,
+                                   int x, int y) const;
+    [[nodiscard]] glm::dvec3 color(const TexturePtr& map, const glm::vec3& factor,
+                                   const MapLevel& in, int x, int y) const;
+    [[nodiscard]] glm::dvec3 vector(const TexturePtr& map, VectorEncoding encoding,
+                                    const MapLevel& in, int x, int y) const;
+    [[nodiscard]] glm::dvec3 normal(const MapLevel& in, int x, int y) const;
 
     Material m_material;
     Sampler m_sampler;
+    std::vector<TextureLevel> m_map_levels;  ///< of the finest map
     int m_width = 1, m_height = 1;
-    bool m_varies = false, m_has_levels = false;
+    bool m_varies = false, m_averages_layer = false;
+    std::shared_ptr<const std::vector<mips::ParameterGrid>> m_mips;  ///< level 1 first
 };
 
 }  // namespace burnish

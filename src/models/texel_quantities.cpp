@@ -62,26 +62,33 @@ TexelQuantities::TexelQuantities(std::vector<const Expr*> quantities, const Texe
         m_first.push_back(m_components);
         m_components += q->kind == ValueKind::scalar ? 1 : 3;
     }
+    std::size_t rows = 0;
+    for (int level = 0; level < source.levels(); ++level) {
+        m_first_row.push_back(rows);
+        rows += static_cast<std::size_t>(source.height(level));
+    }
     const std::size_t row_bytes = sizeof(double) * std::max(m_components, std::size_t{1}) *
                                   static_cast<std::size_t>(source.width());
-    m_kept.resize(std::min(most_kept / row_bytes, static_cast<std::size_t>(source.height())));
+    m_kept.resize(std::min(most_kept / row_bytes, rows));
 }
 
-void TexelQuantities::seek(int y) {
-    const auto place = static_cast<std::size_t>(y);
+void TexelQuantities::seek(int level, int y) {
+    const std::size_t place =
+        m_first_row[static_cast<std::size_t>(level)] + static_cast<std::size_t>(y);
     const bool kept = place < m_kept.size();
     Row& row = kept ? m_kept[place] : m_other;
-    if (!kept || row.values.empty()) work_out(y, row);
+    if (!kept || row.width == 0) work_out(level, y, row);
     m_row = &row;
 }
 
-void TexelQuantities::work_out(int y, Row& row) {
-    const auto width = static_cast<std::size_t>(m_source.width());
+void TexelQuantities::work_out(int level, int y, Row& row) {
+    const auto width = static_cast<std::size_t>(m_source.width(level));
+    row.width = width;
     row.values.resize(m_components * width);
     row.tilt = 0.0;
     std::vector<glm::dvec3> at(m_quantities.size());
     for (std::size_t x = 0; x < width; ++x) {
-        const TexelParameters texel = m_source.at(static_cast<int>(x), y);
+        const TexelParameters texel = m_source.at(level, static_cast<int>(x), y);
         row.tilt = std::max({row.tilt, std::abs(texel.n.x), std::abs(texel.n.y)});
         m_tape.run(texel, at.data());
         for (std::size_t i = 0; i < at.size(); ++i) {
@@ -94,7 +101,7 @@ void TexelQuantities::work_out(int y, Row& row) {
 
 std::span<const double> TexelQuantities::component(const Expr& quantity, int c) const {
     const auto at = std::find(m_quantities.begin(), m_quantities.end(), &quantity);
-    const auto width = static_cast<std::size_t>(m_source.width());
+    const std::size_t width = m_row->width;
     const std::size_t first = m_first[static_cast<std::size_t>(at - m_quantities.begin())];
     const std::size_t own = quantity.kind == ValueKind::scalar ? 0 : static_cast<std::size_t>(c);
     return std::span(m_row->values).subspan((first + own) * width, width);

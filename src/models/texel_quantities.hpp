@@ -37,8 +37,8 @@ class TexelQuantities {
     [[nodiscard]] const TexelSource& source() const { return m_source; }
     [[nodiscard]] const std::vector<const Expr*>& quantities() const { return m_quantities; }
 
-    /// Row 0 <= y < source().height(): good until the next row.
-    void seek(int y);
+    /// Row 0 <= y < source().height(level): good until the next row.
+    void seek(int level, int y);
     /// Component `c` of one of quantities(), from left to right. Those of a scalar are all the
     /// same.
     [[nodiscard]] std::span<const double> component(const Expr& quantity, int c) const;
@@ -48,16 +48,18 @@ class TexelQuantities {
   private:
     struct Row {
         double tilt = 0.0;
+        std::size_t width = 0;
         std::vector<double> values;  ///< component after component
     };
-    void work_out(int y, Row& row);
+    void work_out(int level, int y, Row& row);
 
     std::vector<const Expr*> m_quantities;
     const TexelSource& m_source;
     TexelTape m_tape;
     std::vector<std::size_t> m_first;  ///< component of each quantity in a row
     std::size_t m_components = 0;
-    std::vector<Row> m_kept;  ///< the first ones; empty until they are asked for
+    std::vector<std::size_t> m_first_row;  ///< of each level, among all rows
+    std::vector<Row> m_kept;               ///< the first ones; empty until they are asked for
     Row m_other;
     const Row* m_row = nullptr;
 };

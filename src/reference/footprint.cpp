@@ -37,8 +37,8 @@ int wrapped_texel(int index, int size, Wrap wrap) {
     return 0;
 }
 
-Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& sampler) {
-    const bool linear = sampler.mag_is_linear();
+Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& sampler,
+                    bool linear) {
     const double shift = linear ? 0.5 : 0.0;
     const double u = in_texels(uv.x, width) - shift, v = in_texels(uv.y, height) - shift;
     const double left = std::floor(u), top = std::floor(v);

@@ -23,8 +23,9 @@ struct Footprint {
 };
 
 /// What `sampler` looks at for `uv` in units of a texture of width x height: texel centres lie at
-/// (i + 1/2) / size; a nearest texel is all four. Which of the two is the sampler's choice for
-/// magnified textures. Coordinates that are not finite count as 0.
-Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& sampler);
+/// (i + 1/2) / size; without `linear` the nearest texel is all four. Coordinates that are not
+/// finite count as 0.
+Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& sampler,
+                    bool linear);
 
 }  // namespace burnish::reference

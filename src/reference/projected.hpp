@@ -59,4 +59,23 @@ std::vector<ProjectedTriangle> project(const DoubleScene& scene, FrameSize size,
     return over_w / (over_w.x + over_w.y + over_w.z);
 }
 
+/// Weights of the three corners at a sample, and how they change to the next one to the right and
+/// below.
+struct SampleWeights {
+    glm::dvec3 here, across, down;
+};
+
+/// At a place in pixels, of samples that are `spacing` pixels apart.
+[[nodiscard]] inline SampleWeights weights_at(const ProjectedTriangle& triangle,
+                                              const glm::dvec2& place, double spacing) {
+    const auto& row = triangle.row;
+    const glm::dvec3 p(place, 1.0), all = row[0] + row[1] + row[2];
+    const glm::dvec3 here = weights(triangle, p);
+    const auto change = [&](int axis) {
+        const glm::dvec3 own(row[0][axis], row[1][axis], row[2][axis]);
+        return (own - here * all[axis]) * (spacing / glm::dot(all, p));
+    };
+    return {here, change(0), change(1)};
+}
+
 }  // namespace burnish::reference

@@ -51,17 +51,21 @@ class ObjectShader {
         }
     }
 
-    /// `weight` of the three corners of triangle `number`.
-    [[nodiscard]] glm::dvec3 color(std::uint32_t number, const glm::dvec3& weight) const {
-        SurfacePoint point{{}, weight};
+    /// At a sample of triangle `number`.
+    [[nodiscard]] glm::dvec3 color(std::uint32_t number, const SampleWeights& weights) const {
+        SurfacePoint point{{}, weights.here};
         for (std::size_t i = 0; i < 3; ++i)
             point.corner[i] = &m_object.vertices[m_object.indices[std::size_t{3} * number + i]];
         const TangentFrame frame = tangent_frame(point, m_tangent_frames);
         const glm::dvec3 position = point.mean(&DoubleVertex::position);
         const glm::dvec2 uv = point.mean(&DoubleVertex::uv);
         const TextModel* text = m_object.text.get();
-        const TextSurface own = text != nullptr ? text->at(uv) : TextSurface{};
-        const Surface surface = text == nullptr ? m_object.surface->at(uv) : Surface{};
+        const auto step = [&](const glm::dvec3& change) {
+            return SurfacePoint{point.corner, change}.mean(&DoubleVertex::uv);
+        };
+        const CoordinateSteps steps{step(weights.across), step(weights.down)};
+        const TextSurface own = text != nullptr ? text->at(uv, steps) : TextSurface{};
+        const Surface surface = text == nullptr ? m_object.surface->at(uv, steps) : Surface{};
         const glm::dvec3 v = normalised(m_eye - position * m_eye_w);
         glm::dvec3 sum = m_ambient;
         for (const DoubleLight& light : m_lights) {
@@ -209,8 +213,9 @@ class Tile {
         if (sample.triangle == kNothing) return m_frame.scene.background;
         const ProjectedTriangle& triangle = m_frame.triangles[sample.triangle];
         const ObjectShader& shader = m_frame.shaders[triangle.object];
-        const glm::dvec3 weight = weights(triangle, glm::dvec3(sample.position, 1.0));
-        return {shader.color(triangle.number, weight), 1.0};
+        return {shader.color(triangle.number,
+                             weights_at(triangle, sample.position, 1.0 / m_frame.pattern.side())),
+                1.0};
     }
 
     const Frame& m_frame;

@@ -12,6 +12,8 @@ class SamplePattern {
     explicit SamplePattern(int side, std::uint32_t seed = 1) : m_side(side), m_seed(seed) {}
 
     [[nodiscard]] int count() const { return m_side * m_side; }
+    /// Samples along each side of a pixel.
+    [[nodiscard]] int side() const { return m_side; }
 
     /// Sample 0 .. count() - 1 of pixel (x, y), in pixels; centres are at .5.
     [[nodiscard]] glm::dvec2 position(int x, int y, int sample) const {

@@ -63,8 +63,8 @@ std::span<const std::string_view> needed(Model model) {
     return {};
 }
 
-double value_of(const Texture& texture, int x, int y, int channel) {
-    const int number = texture.texel(0, 0, x, y, channel);
+double value_of(const Texture& texture, int level, int x, int y, int channel) {
+    const int number = texture.texel(static_cast<std::size_t>(level), 0, x, y, channel);
     const bool words = has_words(texture.format());
     if (texture.is_signed(channel)) return number / (words ? 32768.0 : 128.0);
     return number / (words ? 65535.0 : 255.0);
@@ -80,7 +80,10 @@ glm::dvec3 decoded(const LayerQuantity& quantity, const glm::dvec3& code) {
 class ConstantSurface : public SurfaceSampler {
   public:
     explicit ConstantSurface(const Surface& surface) : m_surface(surface) {}
-    [[nodiscard]] Surface at(const glm::dvec2& /*uv*/) const override { return m_surface; }
+    [[nodiscard]] Surface at(const glm::dvec2& /*uv*/,
+                             const CoordinateSteps& /*steps*/) const override {
+        return m_surface;
+    }
 
   private:
     Surface m_surface;
@@ -90,13 +93,9 @@ class ExactSurface : public SurfaceSampler {
   public:
     ExactSurface(Model model, TexelSource source) : m_model(model), m_source(std::move(source)) {}
 
-    [[nodiscard]] Surface at(const glm::dvec2& uv) const override {
-        const int last_x = m_source.width() - 1, last_y = m_source.height() - 1;
-        return footprint(uv, m_source.width(), m_source.height(), m_source.sampler())
-            .mean([&](int x, int y) {
-                return surface_of(m_model,
-                                  m_source.at(std::clamp(x, 0, last_x), std::clamp(y, 0, last_y)));
-            });
+    [[nodiscard]] Surface at(const glm::dvec2& uv, const CoordinateSteps& steps) const override {
+        return filtered_texels(m_source, uv, steps,
+                               [&](const TexelParameters& p) { return surface_of(m_model, p); });
     }
 
   private:
@@ -107,7 +106,7 @@ class ExactSurface : public SurfaceSampler {
 class LayerSurface : public SurfaceSampler {
   public:
     LayerSurface(const Material& material, std::span<const LayerQuantity> layer, TexelSteps steps)
-        : m_steps(steps) {
+        : m_steps(steps), m_has_mipmaps(material.mipmaps.has_value()) {
         for (const std::string_view name : needed(material.model)) {
             const auto found = std::find_if(layer.begin(), layer.end(),
                                             [&](const LayerQuantity& q) { return q.name == name; });
@@ -125,12 +124,13 @@ class LayerSurface : public SurfaceSampler {
         if (!m_missing.empty()) m_exact = exact_surface(material);
     }
 
-    [[nodiscard]] Surface at(const glm::dvec2& uv) const override {
+    [[nodiscard]] Surface at(const glm::dvec2& uv, const CoordinateSteps& steps) const override {
         Surface surface = m_constants;
+        const CoordinateSteps& seen = m_has_mipmaps ? steps : CoordinateSteps{};
         for (const auto& [to, quantity] : m_textured)
-            surface.*to = layer_value(quantity, coordinate(quantity, uv));
+            surface.*to = layer_value(quantity, coordinate(quantity, uv), seen);
         if (m_missing.empty()) return surface;
-        const Surface exact = m_exact->at(uv);
+        const Surface exact = m_exact->at(uv, seen);
         for (const auto member : m_missing) surface.*member = exact.*member;
         return surface;
     }
@@ -152,24 +152,33 @@ class LayerSurface : public SurfaceSampler {
     std::vector<glm::dvec3 Surface::*> m_missing;
     std::unique_ptr<SurfaceSampler> m_exact;
     TexelSteps m_steps;
+    bool m_has_mipmaps;
 };
 
 }  // namespace
 
-glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int channel,
-                          int components) {
-    return footprint(uv, texture.width(), texture.height(), texture.sampler())
-        .mean([&](int x, int y) {
-            glm::dvec3 value(value_of(texture, x, y, channel));
-            for (int c = 1; c < components; ++c) value[c] = value_of(texture, x, y, channel + c);
-            return value;
-        });
+glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int channel, int components,
+                          const CoordinateSteps& steps) {
+    const std::span<const TextureLevel> levels = texture.levels();
+    const Sampler& sampler = texture.sampler();
+    const LevelsSeen seen = levels_seen(steps, texture.width(), texture.height(),
+                                        static_cast<int>(levels.size()), sampler);
+    const auto size = [&](int level) {
+        const TextureLevel& l = levels[static_cast<std::size_t>(level)];
+        return glm::ivec2(l.width, l.height);
+    };
+    return filtered(uv, seen, sampler, size, [&](int level, int x, int y) {
+        glm::dvec3 value(value_of(texture, level, x, y, channel));
+        for (int c = 1; c < components; ++c) value[c] = value_of(texture, level, x, y, channel + c);
+        return value;
+    });
 }
 
-glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv) {
+glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv,
+                       const CoordinateSteps& steps) {
     const glm::dvec3 value =
         quantity.texture ? decoded(quantity, sample_texture(*quantity.texture, uv, quantity.channel,
-                                                            quantity.components))
+                                                            quantity.components, steps))
                          : quantity.constant;
     return quantity.components == 1 ? glm::dvec3(value.x) : value;
 }

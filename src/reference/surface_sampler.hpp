@@ -7,27 +7,30 @@
 
 #include "models/layer.hpp"
 #include "models/texel.hpp"
+#include "reference/level_of_detail.hpp"
 #include "reference/surface.hpp"
 
 namespace burnish::reference {
 
-/// `components` channels of level 0 from `channel` on, each over its largest code, weighted in
-/// double precision.
-glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int channel,
-                          int components);
+/// `components` channels from `channel` on, each over its largest code, weighted in double
+/// precision.
+glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv, int channel, int components,
+                          const CoordinateSteps& steps = {});
 
 /// A quantity of a machine's layer; a number in all three components.
-glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv);
+glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv,
+                       const CoordinateSteps& steps = {});
 
 /// Texel coordinates as they are, or in the steps of 1/256 texel that machines have, downwards.
 enum class TexelSteps { exact, machine };
 
 /// A material at any point of its maps. Either kind filters quantities, not the maps they come
-/// from.
+/// from; levels are those of Material::mipmaps, without it level 0 alone.
 class SurfaceSampler {
   public:
     virtual ~SurfaceSampler() = default;
-    [[nodiscard]] virtual Surface at(const glm::dvec2& uv) const = 0;
+    [[nodiscard]] virtual Surface at(const glm::dvec2& uv,
+                                     const CoordinateSteps& steps = {}) const = 0;
 };
 
 /// Quantities in double precision, computed from the maps texel by texel. A border has the colour

@@ -9,7 +9,6 @@
 
 #include "models/model_texts.hpp"
 #include "models/terms.hpp"
-#include "reference/footprint.hpp"
 #include "reference/surface_sampler.hpp"
 
 namespace burnish::reference {
@@ -124,7 +123,8 @@ TextSurface operator+(TextSurface a, const TextSurface& b) {
     return a;
 }
 
-TextModel::TextModel(const Material& material) : m_source(material) {
+TextModel::TextModel(const Material& material)
+    : m_source(material), m_has_mipmaps(material.mipmaps.has_value()) {
     ExprBuilder builder;
     m_value = model_expression(material, builder);
     m_quantities = quantities_of(*m_value);
@@ -135,7 +135,7 @@ TextModel::TextModel(const Material& material) : m_source(material) {
     std::vector<const Expr*> leaves = m_quantities;
     leaves.insert(leaves.end(), m_geometry.begin(), m_geometry.end());
     m_formula.emplace(*m_value, leaves);
-    if (!m_source.varies()) m_constant = texel(0, 0);
+    if (!m_source.varies()) m_constant = texel(m_source.at(0, 0));
 }
 
 TextModel::TextModel(const Material& material, std::span<const LayerQuantity> layer)
@@ -148,8 +148,7 @@ TextModel::TextModel(const Material& material, std::span<const LayerQuantity> la
     }
 }
 
-TextSurface TextModel::texel(int x, int y) const {
-    const TexelParameters parameters = m_source.at(x, y);
+TextSurface TextModel::texel(const TexelParameters& parameters) const {
     std::vector<glm::dvec3> leaves;
     for (const Expr* leaf : m_parameters) leaves.push_back(parameter(leaf->name, parameters));
     TextSurface surface;
@@ -157,22 +156,20 @@ TextSurface TextModel::texel(int x, int y) const {
     return surface;
 }
 
-TextSurface TextModel::exact(const glm::dvec2& uv) const {
+TextSurface TextModel::exact(const glm::dvec2& uv, const CoordinateSteps& steps) const {
     if (m_constant) return *m_constant;
-    const int last_x = m_source.width() - 1, last_y = m_source.height() - 1;
-    return footprint(uv, m_source.width(), m_source.height(), m_source.sampler())
-        .mean([&](int x, int y) {
-            return texel(std::clamp(x, 0, last_x), std::clamp(y, 0, last_y));
-        });
+    return filtered_texels(m_source, uv, steps,
+                           [&](const TexelParameters& parameters) { return texel(parameters); });
 }
 
-TextSurface TextModel::at(const glm::dvec2& uv) const {
+TextSurface TextModel::at(const glm::dvec2& uv, const CoordinateSteps& all_steps) const {
+    const CoordinateSteps steps = m_has_mipmaps ? all_steps : CoordinateSteps{};
     const bool all_coded = !m_layer.empty() && std::all_of(m_layer.begin(), m_layer.end(),
                                                            [](const auto& q) { return bool(q); });
     TextSurface surface =
-        all_coded ? TextSurface{std::vector<glm::dvec3>(m_quantities.size())} : exact(uv);
+        all_coded ? TextSurface{std::vector<glm::dvec3>(m_quantities.size())} : exact(uv, steps);
     for (std::size_t i = 0; i < m_layer.size(); ++i) {
-        if (m_layer[i]) surface.values[i] = layer_value(*m_layer[i], uv);
+        if (m_layer[i]) surface.values[i] = layer_value(*m_layer[i], uv, steps);
     }
     return surface;
 }

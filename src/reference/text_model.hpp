@@ -9,6 +9,7 @@
 #include "models/expression.hpp"
 #include "models/layer.hpp"
 #include "models/texel.hpp"
+#include "reference/level_of_detail.hpp"
 #include "reference/shade.hpp"
 
 namespace burnish::reference {
@@ -51,16 +52,17 @@ class TextModel {
     /// are exact.
     TextModel(const Material& material, std::span<const LayerQuantity> layer);
 
-    [[nodiscard]] TextSurface at(const glm::dvec2& uv) const;
+    [[nodiscard]] TextSurface at(const glm::dvec2& uv, const CoordinateSteps& steps = {}) const;
 
     /// What a light of colour 1 adds. Values below 0, and what is no number, are 0.
     [[nodiscard]] glm::dvec3 reflected(const TextSurface& surface, const Directions& to) const;
 
   private:
-    [[nodiscard]] TextSurface exact(const glm::dvec2& uv) const;
-    [[nodiscard]] TextSurface texel(int x, int y) const;
+    [[nodiscard]] TextSurface exact(const glm::dvec2& uv, const CoordinateSteps& steps) const;
+    [[nodiscard]] TextSurface texel(const TexelParameters& parameters) const;
 
     TexelSource m_source;
+    bool m_has_mipmaps;
     ExprPtr m_value;  ///< keeps the nodes alive
     std::vector<const Expr*> m_quantities, m_parameters, m_geometry;
     std::vector<Formula> m_definitions;  ///< of the quantities, by the parameters

@@ -24,6 +24,10 @@ std::string_view model_name(Model model);
 /// The model with that name; nothing for an unknown one.
 std::optional<Model> model_named(std::string_view name);
 
+/// The words of scene files for the methods, in the order of the enumeration.
+std::vector<std::string_view> mip_method_names();
+std::optional<MipMethod> mip_method_named(std::string_view name);
+
 /// A number that is coded as a channel 0 .. 1: low + (high - low) * channel.
 struct CodedRange {
     float low = 0.0F, high = 1.0F;

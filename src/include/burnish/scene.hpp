@@ -131,6 +131,7 @@ enum class VectorEncoding {
 /// sources.
 enum class MipMethod {
     none,                ///< level 0 alone
+    maps,                ///< level k of every map; of those that end before, the last one
     box,                 ///< parameters and vectors averaged, as mip levels of maps are
     normalize,           ///< and vectors made unit again
     mag,                 ///< and the normal's length kept for the diffuse part
@@ -147,6 +148,9 @@ struct MaterialMipmaps {
     /// Moments of clean, lean and moments are stored in so many bits: 8, 16, 32; 0: in double
     /// precision.
     int bits = 0;
+    /// Most probes along the longer axis of what a pixel covers, 1 .. 16; 1: one level for both
+    /// axes. More than 1 is for the double-precision renderer alone.
+    int max_anisotropy = 1;
 
     friend bool operator==(const MaterialMipmaps&, const MaterialMipmaps&) = default;
 };

@@ -24,9 +24,10 @@ struct ParameterGrid {
 using TexelReader = std::function<TexelParameters(int x, int y)>;
 
 /// Mip levels 1, 2, ... down to 1 x 1 of a material of width x height texels; none for
-/// MipMethod::none. Sides are half of those before, rounded down, at least 1; a texel stands for
-/// what it covers of the level before. Level k is made from what level k - 1 has stored, never from
-/// its parameters. In double, of + - * / and sqrt alone: the same bits everywhere.
+/// MipMethod::none; all others but MipMethod::maps are made here. Sides are half of those before,
+/// rounded down, at least 1; a texel stands for what it covers of the level before. Level k is made
+/// from what level k - 1 has stored, never from its parameters. In double, of + - * / and sqrt
+/// alone: the same bits everywhere.
 std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, int height,
                                           const LobeShape& shape, const MaterialMipmaps& mipmaps);
 

@@ -19,6 +19,11 @@ glm::dmat2 slope_jacobian(const TexelParameters& frame) {
     return glm::dmat2(frame.b.y, -frame.b.x, -frame.t.y, frame.t.x) / (z * z);
 }
 
+glm::dvec2 surface_direction(const TexelParameters& frame) {
+    const double along = frame.t.z / std::max(frame.n.z, kLeastNormalZ);
+    return glm::dvec2(frame.t) - glm::dvec2(frame.n) * along;
+}
+
 Symmetric slope_covariance(const TexelParameters& frame, const glm::dvec2& variance) {
     return transformed({variance.x, 0.0, variance.y}, slope_jacobian(frame));
 }

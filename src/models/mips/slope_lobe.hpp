@@ -21,6 +21,10 @@ inline constexpr double kLeastNormalZ = 1.0 / 64.0;
 /// 1 / nz^2 [[by, -ty], [-bx, tx]], whose determinant is 1 / nz^3.
 [[nodiscard]] glm::dmat2 slope_jacobian(const TexelParameters& frame);
 
+/// The direction (x, y, 0), of any length, whose part at right angles to n is along t: what a
+/// direction map has for it.
+[[nodiscard]] glm::dvec2 surface_direction(const TexelParameters& frame);
+
 /// Covariance in slopes of a lobe of `variance` along t and b.
 [[nodiscard]] Symmetric slope_covariance(const TexelParameters& frame, const glm::dvec2& variance);
 

@@ -40,8 +40,7 @@ TexelMoments moments_of(const TexelParameters& p, const LobeShape& shape, MipMet
     m.alpha_y = p.alpha_y;
     m.energy = p.ks * shape.energy_per_ks(p);
     m.t = p.t;
-    const glm::dvec2 line =
-        glm::dvec2(p.t) - glm::dvec2(p.n) * (p.t.z / std::max(p.n.z, kLeastNormalZ));
+    const glm::dvec2 line = surface_direction(p);
     const double squares = glm::dot(line, line);
     if (squares > 0.0)
         m.doubled = glm::dvec2(line.x * line.x - line.y * line.y, 2.0 * line.x * line.y) / squares;
