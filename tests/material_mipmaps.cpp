@@ -101,6 +101,34 @@ TEST(LevelsSeen, FollowTheSampler) {
     EXPECT_EQ(seen(NAN, Filter::linear_mipmap_linear).first, 0);
 }
 
+// Probes share the longer step among them, at i / (N + 1) - 1/2 of it.
+TEST(LevelsSeen, ProbesFollowTheLongerStep) {
+    const Sampler sampler{.filter = Filter::linear_mipmap_linear};
+    const auto seen = [&](double across, double down, int most) {
+        return reference::levels_seen({{across / 64.0, 0.0}, {0.0, down / 64.0}}, 64, 64, 7,
+                                      sampler, most);
+    };
+    EXPECT_EQ(seen(2.0, 16.0, 1).probes, 1);
+    EXPECT_EQ(seen(2.0, 16.0, 1).first, 4);
+    const auto eight = seen(2.0, 16.0, 16);
+    EXPECT_EQ(eight.probes, 8);
+    EXPECT_EQ(eight.first, 1);
+    EXPECT_EQ(eight.weight, 0.0);
+    EXPECT_EQ(eight.apart, glm::dvec2(0.0, 16.0 / 64.0 / 9.0));
+    EXPECT_EQ(seen(2.0, 16.0, 4).probes, 4);
+    EXPECT_EQ(seen(2.0, 16.0, 4).first, 2);
+    EXPECT_EQ(seen(12.0, 4.0, 16).apart, glm::dvec2(12.0 / 64.0 / 4.0, 0.0));
+    EXPECT_EQ(seen(0.1, 4.0, 16).probes, 4) << "a texel is the shortest that counts";
+    EXPECT_EQ(seen(0.1, 0.9, 16).probes, 1) << "magnified";
+    EXPECT_EQ(seen(NAN, 4.0, 16).probes, seen(NAN, 4.0, 1).probes);
+    // The mean of what the probes see: of a ramp along v the middle.
+    const auto ramp = reference::filtered(
+        {0.5, 0.5}, eight, {.wrap_t = Wrap::clamp_to_edge},
+        [](int level) { return glm::ivec2(64 >> level); },
+        [](int level, int, int y) { return (y + 0.5) / (64 >> level); });
+    EXPECT_NEAR(ramp, 0.5, 1e-12);
+}
+
 /// A floor towards the horizon.
 Scene floor(const Material& material) {
     Scene scene;
@@ -161,6 +189,10 @@ TEST(MaterialMipmaps, LevelsAreNearerToTheTruthThanNone) {
                  moments = error(MipMethod::moments);
     EXPECT_LT(moments, 0.5 * none);
     EXPECT_LT(moments, 0.9 * box);
+    Scene probed = floor(weave(MaterialMipmaps{MipMethod::moments, 0, 16}, 128));
+    EXPECT_THROW(drawn(probed), Error) << "machines have none";
+    probed.machine = scene.machine;
+    EXPECT_LT(rms_difference(drawn(probed), truth), moments);
 }
 
 class SceneMipmaps : public SceneFile {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <cmath>
 #include <limits>
@@ -104,6 +105,20 @@ TEST(Metrics, ThePercentileLeavesOutOneInAHundred) {
     EXPECT_EQ(compared(got, want)[Metric::bias], (0.25 - 0.5 + 0.5) / 300.0);
     set(got, 9, 0, {0.75F, 0.75F, 0.75F, 1.0F});
     EXPECT_EQ(compared(got, want)[Metric::p99], 0.25);
+}
+
+// Against a sorted list, for differences of any size.
+TEST(Metrics, ThePercentileOfNoiseIsThatOfASortedList) {
+    const Framebuffer got = noise(31, 17, 8), want = noise(31, 17, 9);
+    std::vector<double> differences;
+    for (int y = 0; y < 17; ++y)
+        for (int x = 0; x < 31; ++x)
+            for (int c = 0; c < 3; ++c)
+                differences.push_back(
+                    std::abs(double{get(got, x, y)[c]} - double{get(want, x, y)[c]}));
+    std::sort(differences.begin(), differences.end());
+    EXPECT_EQ(compared(got, want)[Metric::p99], differences[(differences.size() * 99 - 1) / 100]);
+    EXPECT_EQ(compared(got, want)[Metric::max], differences.back());
 }
 
 // Green rises from 1/256 to 1 in 256 steps, red is brighter nowhere. Above half of the peak lie

@@ -87,7 +87,11 @@ void replace_materials(const PictureOptions& options, Scene& scene) {
         if (!copy) {
             Material material = object.material ? *object.material : Material{};
             material.model = options.model.value_or(material.model);
-            if (options.mipmaps) material.mipmaps = options.mipmaps;
+            if (options.mipmaps) {
+                const int probes = material.mipmaps ? material.mipmaps->max_anisotropy : 1;
+                material.mipmaps = options.mipmaps;
+                material.mipmaps->max_anisotropy = probes;
+            }
             copy = std::make_shared<const Material>(std::move(material));
         }
         object.material = copy;

@@ -38,6 +38,7 @@ constexpr std::array<std::string_view, 43> kKeys{"name",
                                                  "srgb_colors",
                                                  "mipmaps",
                                                  "mipmap_bits",
+                                                 "max_anisotropy",
                                                  "generator",
                                                  "seed",
                                                  "size",
@@ -61,7 +62,7 @@ constexpr std::array<std::string_view, 43> kKeys{"name",
 constexpr std::span<const std::string_view> kFileKeys(kKeys.data(), kKeys.size() - 1);
 
 /// Those of read_reflectance().
-constexpr std::span<const std::string_view> kReflectanceKeys(kKeys.data() + 1, 22);
+constexpr std::span<const std::string_view> kReflectanceKeys(kKeys.data() + 1, 23);
 
 AlphaTest read_alpha_test(const Section& section, AlphaTest test) {
     test.reference = section.number("alpha_ref", kUnit).value_or(test.reference);
@@ -115,7 +116,7 @@ Material read_material(const Section& section, const TextureTable& textures,
         read_reflectance(section, textures, material);
         return material;
     }
-    for (const std::string_view key : {"mipmaps", "mipmap_bits"}) {
+    for (const std::string_view key : {"mipmaps", "mipmap_bits", "max_anisotropy"}) {
         if (section.has(key))
             section.fail(key, fmt::format("'{}' in {}, which is a pipeline, expected a reflectance "
                                           "model",

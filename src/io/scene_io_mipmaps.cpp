@@ -61,13 +61,22 @@ void read_mipmaps(const Section& section, const TextureTable& textures, Material
     } else {
         method = method_of_maps(section, textures);
     }
-    if (method) material.mipmaps = {*method, material.mipmaps ? material.mipmaps->bits : 0};
+    if (method) {
+        if (!material.mipmaps) material.mipmaps.emplace();
+        material.mipmaps->method = *method;
+    }
+    if (!material.mipmaps) {
+        for (const std::string_view key : {"mipmap_bits", "max_anisotropy"})
+            section.refuse_without(key, "mipmaps");
+        return;
+    }
+    material.mipmaps->max_anisotropy =
+        section.integer("max_anisotropy", 1, 16).value_or(material.mipmaps->max_anisotropy);
     const std::optional<int> bits = section.integer("mipmap_bits", 8, 32);
     if (!bits) return;
     if (*bits != 8 && *bits != 16 && *bits != 32)
         section.fail("mipmap_bits", fmt::format("'mipmap_bits' = {} in {}, expected 8, 16 or 32",
                                                 *bits, section.label()));
-    if (!material.mipmaps) section.refuse_without("mipmap_bits", "mipmaps");
     material.mipmaps->bits = *bits;
 }
 

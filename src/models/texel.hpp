@@ -51,6 +51,10 @@ class TexelSource {
     /// Of the finest map; with mipmaps one that blends levels, if the map's does not look at them,
     /// and one that does not look at them for MipMethod::none.
     [[nodiscard]] const Sampler& sampler() const { return m_sampler; }
+    /// As in MaterialMipmaps.
+    [[nodiscard]] int max_anisotropy() const {
+        return m_material.mipmaps ? m_material.mipmaps->max_anisotropy : 1;
+    }
     /// Whether what is made from texels is to be averaged itself: maps have mip levels, and the
     /// material does not say how.
     [[nodiscard]] bool averages_layer() const { return m_averages_layer; }

@@ -5,17 +5,33 @@
 
 namespace burnish::reference {
 
-LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
-                       const Sampler& sampler) {
-    const auto squared_texels = [&](const glm::dvec2& step) {
-        const glm::dvec2 texels = step * glm::dvec2(width, height);
-        return glm::dot(texels, texels);
+namespace {
+
+/// The longer step of a sample in texels of level 0, and how it is divided.
+struct Extent {
+    double longest = 0.0;
+    int probes = 1;
+    glm::dvec2 apart{0.0};
+};
+
+Extent extent_of(const CoordinateSteps& steps, const glm::dvec2& size, int max_anisotropy) {
+    const auto texels = [&](const glm::dvec2& step) {
+        return std::sqrt(glm::dot(step * size, step * size));
     };
-    const double longest = std::max(squared_texels(steps.across), squared_texels(steps.down));
-    // No step at all, and what is no number, is level 0.
-    const double lambda = longest > 0.0 && std::isfinite(longest)
-                              ? 0.5 * std::log2(longest) + static_cast<double>(sampler.lod_bias)
-                              : 0.0;
+    const double across = texels(steps.across), down = texels(steps.down);
+    Extent extent{std::max(across, down)};
+    // Magnified texels, and what is no number, need no probes.
+    if (max_anisotropy <= 1 || !(extent.longest > 1.0) || !std::isfinite(extent.longest))
+        return extent;
+    // Steps shorter than a texel see no detail more.
+    const double shortest = std::max(std::min(across, down), 1.0);
+    extent.probes = static_cast<int>(
+        std::min(std::ceil(extent.longest / shortest), static_cast<double>(max_anisotropy)));
+    extent.apart = (across > down ? steps.across : steps.down) / (extent.probes + 1.0);
+    return extent;
+}
+
+LevelsSeen levels_at(double lambda, int levels, const Sampler& sampler) {
     if (!(lambda > 0.0)) return {0, 0, 0.0, sampler.mag_is_linear()};
     const bool linear = is_linear_within(sampler.filter);
     const int last = levels - 1;
@@ -35,6 +51,22 @@ LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int 
     }
     const int first = static_cast<int>(level);
     return {first, std::min(first + 1, last), level - first, linear};
+}
+
+}  // namespace
+
+LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
+                       const Sampler& sampler, int max_anisotropy) {
+    const Extent extent = extent_of(steps, glm::dvec2(width, height), max_anisotropy);
+    // No step at all, and what is no number, is level 0.
+    const double lambda =
+        extent.longest > 0.0 && std::isfinite(extent.longest)
+            ? std::log2(extent.longest / extent.probes) + static_cast<double>(sampler.lod_bias)
+            : 0.0;
+    LevelsSeen seen = levels_at(lambda, levels, sampler);
+    seen.probes = extent.probes;
+    seen.apart = extent.apart;
+    return seen;
 }
 
 }  // namespace burnish::reference
