@@ -131,13 +131,13 @@ std::string verdict_rows(const Results& results, const std::vector<Judgement>& j
 }
 
 /// A cell of a Markdown table.
-std::string cell_text(std::string text) {
-    std::size_t at = 0;
-    while ((at = text.find('|', at)) != std::string::npos) {
-        text.insert(at, "\\");
-        at += 2;
+std::string cell_text(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '|') result += '\\';
+        result += c;
     }
-    return text;
+    return result;
 }
 
 std::string settings_text(const std::vector<ExperimentSetting>& settings) {
