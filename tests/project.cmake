@@ -38,3 +38,12 @@ add_test(NAME package
     -DFLAGS=${sanitize}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/check_package.cmake)
 set_tests_properties(package PROPERTIES TIMEOUT 300)
+
+# The quick form of every experiment; with sanitizers tests/experiment.cpp has to do.
+if(NOT BURNISH_SANITIZE)
+  foreach(number RANGE 1 12)
+    add_test(NAME experiment.e${number} COMMAND burnish_command experiment e${number} --quick
+      -o ${CMAKE_CURRENT_BINARY_DIR}/experiments/e${number})
+    set_tests_properties(experiment.e${number} PROPERTIES TIMEOUT 300)
+  endforeach()
+endif()

@@ -4,7 +4,6 @@
 
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
-#include <burnish/renderer.hpp>
 #include <string>
 #include <vector>
 
@@ -77,14 +76,15 @@ void scale_lights(Scene& scene, double factor) {
         light.intensity = static_cast<float>(static_cast<double>(light.intensity) * factor);
 }
 
-Framebuffer draw_picture(const Scene& scene, const PictureSettings& picture, int threads) {
-    if (const std::optional<StageBits> bits = bits_of(picture.settings))
-        return render_with_bits(scene, *bits, threads);
-    RendererOptions options;
-    options.threads = threads;
-    options.double_samples = picture.samples;
+Painter::Painter(const PictureSettings& picture, int samples, int threads)
+    : m_bits(bits_of(picture.settings)),
+      m_threads(threads),
+      m_renderer({.threads = threads, .double_samples = samples}) {}
+
+Framebuffer Painter::draw(const Scene& scene) {
+    if (m_bits) return render_with_bits(scene, *m_bits, m_threads);
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
-    Renderer(options).render(scene, frame);
+    m_renderer.render(scene, frame);
     return frame;
 }
 

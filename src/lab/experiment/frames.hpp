@@ -2,11 +2,14 @@
 
 #include <burnish/experiment.hpp>
 #include <burnish/framebuffer.hpp>
+#include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "lab/experiment/cells.hpp"
+#include "lab/stage_bits.hpp"
 
 /// Pictures of an experiment, as frames of floats.
 namespace burnish::lab {
@@ -23,8 +26,20 @@ Scene moved(const Scene& scene, const glm::dvec2& pixels);
 double exposure(const Scene& reference, double peak, int threads);
 void scale_lights(Scene& scene, double factor);
 
-/// Draws with `threads` workers, by render_with_bits if a setting speaks of bits; several samples
-/// with Machine::double_precision only. Throws what Renderer::render and bits_of do.
-Framebuffer draw_picture(const Scene& scene, const PictureSettings& picture, int threads);
+/// Draws one side of a cell, frame after frame: what materials compile to is kept between them.
+class Painter {
+  public:
+    /// `samples` with Machine::double_precision only; `threads` workers.
+    Painter(const PictureSettings& picture, int samples, int threads);
+
+    /// By render_with_bits if a setting speaks of bits. Throws what Renderer::render and bits_of
+    /// do.
+    Framebuffer draw(const Scene& scene);
+
+  private:
+    std::optional<StageBits> m_bits;
+    int m_threads;
+    Renderer m_renderer;
+};
 
 }  // namespace burnish::lab

@@ -130,6 +130,16 @@ std::string verdict_rows(const Results& results, const std::vector<Judgement>& j
     return rows;
 }
 
+/// A cell of a Markdown table.
+std::string cell_text(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '|') result += '\\';
+        result += c;
+    }
+    return result;
+}
+
 std::string settings_text(const std::vector<ExperimentSetting>& settings) {
     std::string text;
     for (const ExperimentSetting& setting : settings)
@@ -252,6 +262,26 @@ std::string table_section(const Results& results) {
 
 }  // namespace
 
+std::string verdicts_markdown(const Results& results, const std::vector<Judgement>& judgements) {
+    std::string text = fmt::format(
+        "{}\n\n**{}**, {} cells{}.\n\n| expected | predicted | limits | "
+        "found | |\n|---|---|---|---|---|\n",
+        results.experiment.hypothesis, verdict_name(overall(judgements)), results.cells.size(),
+        results.quick ? " of the quick form" : "");
+    for (std::size_t i = 0; i < judgements.size(); ++i) {
+        const ExperimentExpectation& expectation = results.experiment.expectations[i];
+        const Judgement& judgement = judgements[i];
+        const std::size_t count = judgement.measures.size() + judgement.open;
+        std::string verdict(verdict_name(judgement.verdict));
+        if (judgement.verdict == Verdict::refuted && count > 1)
+            verdict += fmt::format(", {} of {} inside", judgement.inside, count);
+        text += fmt::format("| {} ({}) | {} | {} | {} | {} |\n", cell_text(expectation.text),
+                            cell_text(measure_text(expectation)), cell_text(expectation.predicted),
+                            limits_of(expectation), range_of(judgement.measures), verdict);
+    }
+    return text;
+}
+
 std::string report_html(const Results& results, const std::vector<Judgement>& judgements,
                         const DrawnPlots& plots, const Store& store) {
     const Experiment& experiment = results.experiment;
@@ -281,6 +311,7 @@ std::string write_results(const Results& results, const Store& store) {
     save_text(results_csv(results), directory / "results.csv");
     save_text(results_json(results, judgements), directory / "results.json");
     save_text(manifest_json(results), directory / "manifest.json");
+    save_text(verdicts_markdown(results, judgements), directory / "verdicts.md");
     const DrawnPlots plots = draw_plots(results, directory / "plots");
     save_text(report_html(results, judgements, plots, store), directory / "report.html");
     return plots.problem;

@@ -14,7 +14,11 @@ namespace burnish::lab {
 std::string report_html(const Results& results, const std::vector<Judgement>& judgements,
                         const DrawnPlots& plots, const Store& store);
 
-/// Writes report.html, results.csv, results.json and manifest.json into the store's directory.
+/// Hypothesis, verdict and what each expectation came to, as docs/experiments.md has it.
+std::string verdicts_markdown(const Results& results, const std::vector<Judgement>& judgements);
+
+/// Writes report.html, results.csv, results.json, verdicts.md and manifest.json into the store's
+/// directory.
 /// Returns what could not be drawn, one line, or nothing.
 std::string write_results(const Results& results, const Store& store);
 

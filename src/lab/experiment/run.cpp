@@ -122,11 +122,11 @@ class Runner {
             light = exposure(scene, static_cast<double>(experiment().expose), m_pool.size());
             scale_lights(scene, light);
         }
-        Reference reference{light, draw_picture(scene, picture, m_pool.size()), {}};
-        PictureSettings moving = picture;
-        moving.samples = experiment().pan.samples;
+        Reference reference{
+            light, Painter(picture, picture.samples, m_pool.size()).draw(scene), {}};
+        Painter moving(picture, experiment().pan.samples, m_pool.size());
         for (int i = 0; i < series_length(); ++i)
-            reference.series.push_back(draw_picture(moved(scene, way(i)), moving, m_pool.size()));
+            reference.series.push_back(moving.draw(moved(scene, way(i))));
         return reference;
     }
 
@@ -161,7 +161,8 @@ class Runner {
         WorkerPool one(1);
         CellResult result;
         const auto start = std::chrono::steady_clock::now();
-        const Framebuffer test = draw_picture(scene, cell.test, 1);
+        Painter painter(cell.test, cell.test.samples, 1);
+        const Framebuffer test = painter.draw(scene);
         result.ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                 .count();
@@ -173,7 +174,7 @@ class Runner {
                           {m_store.images(), cell.name});
         SeriesMeasurement series(experiment().metrics);
         for (int i = 0; i < series_length(); ++i)
-            series.add(draw_picture(moved(scene, way(i)), cell.test, 1),
+            series.add(painter.draw(moved(scene, way(i))),
                        reference.series[static_cast<std::size_t>(i)], one);
         for (Measured& each : series.values()) result.values.push_back(std::move(each));
         return result;
