@@ -27,6 +27,8 @@ constexpr std::array<std::pair<std::string_view, TangentFrames>, 3> kTangentFram
     {{"mikktspace", TangentFrames::mikktspace},
      {"orthonormal", TangentFrames::orthonormal},
      {"derivative", TangentFrames::derivative}}};
+constexpr std::array<std::pair<std::string_view, TableFilter>, 3> kTableFilters{
+    {{"point", TableFilter::point}, {"mip", TableFilter::mip}, {"exact", TableFilter::exact}}};
 constexpr std::array<std::pair<std::string_view, ProductRounding>, 3> kProductRoundings{
     {{"nearest", ProductRounding::nearest},
      {"truncate", ProductRounding::truncate},
@@ -79,12 +81,27 @@ void read_vectors(const Section& section, Machine& machine) {
 }
 
 void read_machine(const toml::table& table, Scene& scene) {
-    const Section section(
-        table, "[machine]",
-        {"profile", "filter_order", "texture_units", "general_stages", "stage_constants", "numbers",
-         "product_rounding", "expand", "halving", "lerp_rounding", "magnitude_factor", "multipass",
-         "subpixel_bits", "snap", "half_vector", "half_vector_bits", "normalise_half_vector",
-         "viewer", "tangent_frames"});
+    const Section section(table, "[machine]",
+                          {"profile",
+                           "filter_order",
+                           "texture_units",
+                           "general_stages",
+                           "stage_constants",
+                           "numbers",
+                           "product_rounding",
+                           "expand",
+                           "halving",
+                           "lerp_rounding",
+                           "magnitude_factor",
+                           "multipass",
+                           "subpixel_bits",
+                           "snap",
+                           "half_vector",
+                           "half_vector_bits",
+                           "normalise_half_vector",
+                           "viewer",
+                           "tangent_frames",
+                           "table_filter"});
     Machine machine = read_profile(section);
     machine.filter_order =
         section.choice<FilterOrder>("filter_order", kFilterOrders).value_or(machine.filter_order);
@@ -105,6 +122,8 @@ void read_machine(const toml::table& table, Scene& scene) {
             .value_or(machine.magnitude_factor);
     machine.multipass = section.boolean("multipass").value_or(machine.multipass);
     read_vectors(section, machine);
+    machine.table_filter =
+        section.choice<TableFilter>("table_filter", kTableFilters).value_or(machine.table_filter);
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);
     machine.snap_floor = section.choice<bool>("snap", kSnaps).value_or(machine.snap_floor);
     try {

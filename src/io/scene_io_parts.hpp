@@ -71,7 +71,8 @@ Material read_one_material(const Section& root, const TextureTable& textures,
 /// Reads the keys of a reflectance model onto a material; those that are missing leave it as it is.
 void read_reflectance(const Section& section, const TextureTable& textures, Material& material);
 
-/// Reads `mipmaps`, `mipmap_bits` and `max_anisotropy`; without the former the maps of the section decide.
+/// Reads `mipmaps`, `mipmap_bits` and `max_anisotropy`; without the former the maps of the section
+/// decide.
 void read_mipmaps(const Section& section, const TextureTable& textures, Material& material);
 
 /// The pipeline of a material with `units` or `combiners`; nothing if it has neither.

@@ -132,6 +132,11 @@ void Machine::validate() const {
                     "half vectors of profile double are computed at every sample, expected "
                     "half_vector = pixel");
     }
+    if (!double_precision && table_filter != TableFilter::point) {
+        throw Error(ErrorCode::bad_option,
+                    "table_filter other than point, expected profile = double: tables of machines "
+                    "have no mip levels");
+    }
     if (numbers == NumberModel::nine_bit || double_precision) return;
     const auto check_default = [](const char* field, bool is_default) {
         if (!is_default) {

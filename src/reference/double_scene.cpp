@@ -82,6 +82,7 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
     out.view = make_view(scene.camera, width, height);
     out.viewer = scene.machine.viewer;
     out.tangent_frames = scene.machine.tangent_frames;
+    out.table_filter = scene.machine.table_filter;
     out.normalise_half_vector = scene.machine.normalise_half_vector;
     out.ambient = glm::dvec3(scene.ambient);
     out.background = glm::dvec4(scene.background);

@@ -53,6 +53,7 @@ struct DoubleScene {
     View view;
     Viewer viewer = Viewer::local;
     TangentFrames tangent_frames = TangentFrames::mikktspace;
+    TableFilter table_filter = TableFilter::point;
     bool normalise_half_vector = true;  ///< else it is (l + v) / 2
     std::vector<DoubleLight> lights;
     glm::dvec3 ambient;

@@ -37,6 +37,7 @@ class ObjectShader {
         : m_object(object),
           m_ambient(scene.ambient),
           m_tangent_frames(scene.tangent_frames),
+          m_table_filter(scene.table_filter),
           m_normalises_half_vector(scene.normalise_half_vector),
           m_eye_w(scene.viewer == Viewer::local ? 1.0 : 0.0),
           m_lights(scene.lights) {
@@ -57,47 +58,89 @@ class ObjectShader {
         SurfacePoint point{{}, weights.here};
         for (std::size_t i = 0; i < 3; ++i)
             point.corner[i] = &m_object.vertices[m_object.indices[std::size_t{3} * number + i]];
-        const TangentFrame frame = tangent_frame(point, m_tangent_frames);
-        const glm::dvec3 position = point.mean(&DoubleVertex::position);
+        const Place place(*this, point);
         const glm::dvec2 uv = point.mean(&DoubleVertex::uv);
         const auto step = [&](const glm::dvec3& change) {
             return SurfacePoint{point.corner, change}.mean(&DoubleVertex::uv);
         };
         const CoordinateSteps steps{step(weights.across), step(weights.down)};
-        if (!m_object.shaded_texels) return shaded(frame, position, uv, steps);
+        const Seen seen{point, weights, steps};
+        if (!m_object.shaded_texels) return shaded(place, seen, uv);
         const TexelGrid& grid = *m_object.shaded_texels;
         glm::dvec3 mean(0.0);
         for (const WeightedPoint& texel :
              texel_centres(grid.coordinate(uv), grid.width, grid.height, grid.sampler))
-            if (texel.weight > 0.0) mean += shaded(frame, position, texel.uv, steps) * texel.weight;
+            if (texel.weight > 0.0) mean += shaded(place, seen, texel.uv) * texel.weight;
         return mean;
     }
 
     [[nodiscard]] const DoubleObject& object() const { return m_object; }
 
   private:
-    /// Of what stands at `uv` in the maps, seen in `steps`, lit at `position`.
-    [[nodiscard]] glm::dvec3 shaded(const TangentFrame& frame, const glm::dvec3& position,
-                                    const glm::dvec2& uv, const CoordinateSteps& steps) const {
+    /// What directions are measured in at a point.
+    struct Place {
+        const ObjectShader& shader;
+        TangentFrame frame;
+        glm::dvec3 position, v;
+
+        Place(const ObjectShader& of, const SurfacePoint& point)
+            : shader(of),
+              frame(tangent_frame(point, of.m_tangent_frames)),
+              position(point.mean(&DoubleVertex::position)),
+              v(normalised(of.m_eye - position * of.m_eye_w)) {}
+
+        [[nodiscard]] Directions directions(const DoubleLight& light) const {
+            const glm::dvec3 l = normalised(light.position - position * light.position_w);
+            const glm::dvec3 h =
+                shader.m_normalises_half_vector ? normalised(l + v) : (l + v) * 0.5;
+            return {frame.components(l), frame.components(v), frame.components(h), glm::dot(h, l)};
+        }
+    };
+
+    /// A sample: where it is, and what lies between it and the next ones.
+    struct Seen {
+        const SurfacePoint& point;
+        const SampleWeights& weights;
+        CoordinateSteps steps;
+    };
+
+    /// Of what stands at `uv` in the maps, lit at `place`.
+    [[nodiscard]] glm::dvec3 shaded(const Place& place, const Seen& seen,
+                                    const glm::dvec2& uv) const {
         const TextModel* text = m_object.text.get();
-        const TextSurface own = text != nullptr ? text->at(uv, steps) : TextSurface{};
-        const Surface surface = text == nullptr ? m_object.surface->at(uv, steps) : Surface{};
-        const glm::dvec3 v = normalised(m_eye - position * m_eye_w);
+        const TextSurface own = text != nullptr ? text->at(uv, seen.steps) : TextSurface{};
+        const Surface surface = text == nullptr ? m_object.surface->at(uv, seen.steps) : Surface{};
         glm::dvec3 sum = m_ambient;
         for (const DoubleLight& light : m_lights) {
-            const glm::dvec3 l = normalised(light.position - position * light.position_w);
-            const glm::dvec3 h = m_normalises_half_vector ? normalised(l + v) : (l + v) * 0.5;
-            const Directions to{frame.components(l), frame.components(v), frame.components(h),
-                                glm::dot(h, l)};
-            sum += light.color * (text != nullptr ? text->reflected(own, to)
-                                                  : reflected(m_object.model, surface, to));
+            const Directions to = place.directions(light);
+            if (text != nullptr) {
+                sum += light.color * text->reflected(own, to);
+                continue;
+            }
+            const PowerFilter filter{m_table_filter, change_of_lobe(surface, to, seen, light)};
+            sum += light.color * reflected(m_object.model, surface, to, filter);
         }
         return sum;
+    }
+
+    /// How much lobe_coordinate changes to the next sample, to the right or below, of a surface
+    /// that stays the same: what varies from texel to texel is the mip levels' business. 0 where
+    /// nobody asks.
+    [[nodiscard]] double change_of_lobe(const Surface& surface, const Directions& here,
+                                        const Seen& seen, const DoubleLight& light) const {
+        if (m_table_filter == TableFilter::point) return 0.0;
+        const double s = lobe_coordinate(surface, here);
+        const auto change = [&](const glm::dvec3& step) {
+            const SurfacePoint next{seen.point.corner, seen.point.weight + step};
+            return std::abs(lobe_coordinate(surface, Place(*this, next).directions(light)) - s);
+        };
+        return std::max(change(seen.weights.across), change(seen.weights.down));
     }
 
     const DoubleObject& m_object;
     glm::dvec3 m_ambient;
     TangentFrames m_tangent_frames;
+    TableFilter m_table_filter;
     bool m_normalises_half_vector;
     double m_eye_w;      ///< 0: m_eye is a direction
     glm::dvec3 m_eye{};  ///< object space

@@ -79,18 +79,23 @@ glm::dvec3 ggx(const Surface& s, const Directions& to) {
 
 }  // namespace
 
-glm::dvec3 reflected(Model model, const Surface& s, const Directions& to) {
+double lobe_coordinate(const Surface& surface, const Directions& to) {
+    return 1.0 - Terms(surface, to).q;
+}
+
+glm::dvec3 reflected(Model model, const Surface& s, const Directions& to,
+                     const PowerFilter& filter) {
     const Terms a(s, to);
-    const double lobe = positive(1.0 - a.q);
+    const double lobe = 1.0 - a.q;
     const double mesh_n_l = positive(to.l.z);
     switch (model) {
         case Model::blinn_phong:
         case Model::abp:
-            return (s.ks * std::pow(lobe, 0.5 * s.N.x) + s.kd) * a.n_l;
+            return (s.ks * filter(lobe, 0.5 * s.N.x) + s.kd) * a.n_l;
         case Model::abp_modified:
-            return (s.ks * lobe + s.kd) * mesh_n_l;
+            return (s.ks * filter(lobe, 1.0) + s.kd) * mesh_n_l;
         case Model::abp_modified_n4:
-            return (s.ks * square(lobe) + s.kd) * mesh_n_l;
+            return (s.ks * filter(lobe, 2.0) + s.kd) * mesh_n_l;
         case Model::banks: {
             const Fibre fibre(s, to);
             return (s.ks * fibre.lobe + s.kd * fibre.diffuse) * a.n_l;

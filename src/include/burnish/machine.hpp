@@ -81,6 +81,13 @@ enum class TextureOperations {
     all,    ///< NV_texture_shader3, too
 };
 
+/// How max(0, s)^m of the Blinn-Phong family is filtered where s changes from sample to sample.
+enum class TableFilter {
+    point,  ///< not at all
+    mip,    ///< mip levels of a table of 256 values
+    exact,  ///< the mean over what s goes through, by the power's integral
+};
+
 /// A machine profile: data that says what a program may use and how numbers behave.
 /// Any field may be overridden after `machine_profile()`; `validate()` checks the result.
 struct Machine {
@@ -112,9 +119,11 @@ struct Machine {
     TangentFrames tangent_frames = TangentFrames::mikktspace;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
+    /// Other than `point` with double_precision alone.
+    TableFilter table_filter = TableFilter::point;
     /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
-    /// the fields above, `viewer`, `tangent_frames` and `filter_order` count, and `half_vector`
-    /// must be `pixel`.
+    /// the fields above, `viewer`, `tangent_frames`, `filter_order` and `table_filter` count, and
+    /// `half_vector` must be `pixel`.
     bool double_precision = false;
 
     /// Throws Error{bad_option} for a field outside its range, for a choice of the nine-bit model
