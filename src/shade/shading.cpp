@@ -10,6 +10,7 @@
 
 #include "machine/material_passes.hpp"
 #include "shade/normalisation_cube.hpp"
+#include "shade/packet_inputs.hpp"
 
 namespace burnish {
 
@@ -526,6 +527,7 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     if (programs.size() > 1) plan_sums(shading);
     const bool flat = !shading.reads_frame && shading.varying_list.empty();
     if (flat && !wanted.everything) shading.frame_attributes = 0;
+    shading.packet_inputs = plan_packet_inputs(shading);
 }
 
 }  // namespace burnish
