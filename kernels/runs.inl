@@ -8,8 +8,8 @@ inline bool are_consecutive(const std::uint16_t* pixels) {
 inline constexpr int kColumnVectors = 4;
 inline bool are_below_each_other(const std::uint16_t* pixels) {
     constexpr int kFragments = kColumnVectors * kLanes32;
-    if (kLanes32 < kBlockSize || pixels[0] % kBlockPixels + kFragments > kBlockPixels) return false;
-    return pixels[kLanes] == pixels[0] + kLanes && are_consecutive(pixels) &&
+    return pixels[0] % kBlockPixels <= kBlockPixels - kFragments &&
+           pixels[kLanes] == pixels[0] + kLanes && are_consecutive(pixels) &&
            are_consecutive(pixels + kLanes);
 }
 
@@ -61,7 +61,8 @@ class FragmentRuns {
         constexpr int kFragments = kColumnVectors * kLanes32;
         for (int i = 0; i < m_end;) {
             const int run = m_run_of[i];
-            const bool is_column = i + kFragments <= m_end && m_run_of[i + kFragments - 1] == run &&
+            const bool is_column = kLanes32 >= kBlockSize && i + kFragments <= m_end &&
+                                   m_run_of[i + kFragments - 1] == run &&
                                    are_below_each_other(m_packet.pixels + i);
             if (!is_column) {
                 call(i, f);
