@@ -67,6 +67,9 @@ rule("^src/shade/" DENY "\"(app|io|pipeline|raster|reference|trace)[/.]" "only p
 rule("^src/reference/" DENY "\"(app|image|io|kernels|machine|mesh|pipeline|program|raster|shade|trace)[/.]"
   "the double renderer shares scenes and the material layer, nothing that shades")
 rule("^src/(pipeline|draw)" DENY "\"(app|io|trace)/" "later stage")
+rule("^src/metrics/" DENY "\"(app|geometry|image|io|kernels|machine|mesh|models|pipeline|program|raster|reference|scene|shade|trace)[/.]"
+  "metrics know pictures only")
+rule("^src/[^alm]|^src/(m[^e]|me[^t])" DENY "\"metrics/" "only those who compare pictures")
 rule("^src/[^l]" DENY "\"lab/" "what measures the library is above all of it")
 rule("^src/trace/" DENY "\"(app|io|pipeline)[/.]" "beside the renderer, above its stages")
 rule("." DENY "\"\\.\\.?/" "paths start at src/ or at the top")

@@ -77,7 +77,7 @@ TEST(RoundLobePictures, AreBlinnPhongWithinBothEstimates) {
             rms += estimate.rms;
             largest += estimate.largest;
         }
-        const lab::FrameErrors errors = lab::frame_errors(pictures[0], pictures[1]);
+        const metrics::FrameErrors errors = metrics::interior_errors(pictures[0], pictures[1]);
         EXPECT_LE(errors.rmse, rms) << name;
         EXPECT_LE(errors.p99, largest) << name;
     }

@@ -119,6 +119,45 @@ TEST_F(ImageFiles, FloatFramesReachEXR) {
     EXPECT_EQ(load_image(path("float.exr")).rgba, (std::vector<std::uint8_t>{0, 128, 255, 255}));
 }
 
+std::vector<float> floats_of(const Framebuffer& frame) {
+    std::vector<float> values(4 * static_cast<std::size_t>(frame.width()) *
+                              static_cast<std::size_t>(frame.height()));
+    std::memcpy(values.data(), frame.pixels(), values.size() * sizeof(float));
+    return values;
+}
+
+TEST_F(ImageFiles, FloatsComeBackAsTheyWere) {
+    // What colours can be: negative, tiny, beyond 1, with an alpha that is not multiplied in.
+    std::vector<float> values{-2.5F, 1e-30F, 3e30F, 0.25F, 0.1F, 0.2F, 0.3F, 0.0F};
+    save_image(Framebuffer(values.data(), 32, 2, 1, PixelFormat::rgba32f), path("a.exr"));
+    const Framebuffer back = load_frame(path("a.exr"));
+    EXPECT_EQ(back.format(), PixelFormat::rgba32f);
+    EXPECT_EQ(floats_of(back), values);
+}
+
+TEST_F(ImageFiles, IntegersBecomeFloatsOverTheirLargest) {
+    Image8 bytes(64, 1);  // each byte once
+    for (std::size_t n = 0; n < 256; ++n) bytes.rgba[n] = static_cast<std::uint8_t>(n);
+    save_image(bytes, path("bytes.png"));
+    const std::vector<float> got = floats_of(load_frame(path("bytes.png")));
+    ASSERT_EQ(got.size(), 256U);
+    for (std::size_t n = 0; n < 256; ++n) EXPECT_EQ(got[n], static_cast<float>(n) / 255.0F) << n;
+
+    std::vector<std::uint16_t> words(65536);  // 16384 pixels
+    for (std::size_t n = 0; n < words.size(); ++n) words[n] = static_cast<std::uint16_t>(n);
+    save_image(Framebuffer(words.data(), 1024, 128, 128, PixelFormat::rgba16), path("words.png"));
+    const std::vector<float> deep = floats_of(load_frame(path("words.png")));
+    ASSERT_EQ(deep.size(), words.size());
+    std::size_t wrong = 0;
+    for (std::size_t n = 0; n < deep.size(); ++n)
+        wrong += deep[n] != static_cast<float>(n) / 65535.0F ? 1 : 0;
+    EXPECT_EQ(wrong, 0U);
+
+    write_netpbm(path("grey.pgm"), 1, 1, 1, {51});
+    EXPECT_EQ(floats_of(load_frame(path("grey.pgm"))),
+              (std::vector<float>{51.0F / 255.0F, 51.0F / 255.0F, 51.0F / 255.0F, 1.0F}));
+}
+
 TEST_F(ImageFiles, DepthsAreOneChannel) {
     Framebuffer frame(2, 1, PixelFormat::depth32f);
     const float depths[2]{0.25F, 1.0F};

@@ -36,7 +36,7 @@ TEST(FrameErrors, OfTwoInteriorPixels) {
     Framebuffer got = covered(4, 3, 7.0F);
     set(got, 1, 1, {0.625F, 0.625F, 0.625F, 0.0F});
     set(got, 2, 1, {0.25F, 0.25F, 0.25F, 0.0F});
-    const FrameErrors errors = frame_errors(got, want);
+    const metrics::FrameErrors errors = metrics::interior_errors(got, want);
     EXPECT_EQ(errors.pixels, 2U);
     EXPECT_DOUBLE_EQ(errors.rmse, std::sqrt(2.5 / 64.0));
     EXPECT_DOUBLE_EQ(errors.bias, -0.0625);
@@ -48,11 +48,11 @@ TEST(FrameErrors, OfTwoInteriorPixels) {
 TEST(FrameErrors, AHoleIsSurroundedByNoInterior) {
     Framebuffer want = covered(5, 5, 0.5F);
     set(want, 2, 2, glm::vec4(0.0F));  // a neighbour of all nine pixels that are not on the border
-    const FrameErrors errors = frame_errors(covered(5, 5, 0.0F), want);
+    const metrics::FrameErrors errors = metrics::interior_errors(covered(5, 5, 0.0F), want);
     EXPECT_EQ(errors.pixels, 0U);
     EXPECT_EQ(errors.rmse, 0.0);
-    EXPECT_EQ(interior_peak(want), 0.0);
-    EXPECT_EQ(interior_peak(covered(3, 3, 0.25F)), 0.25);
+    EXPECT_EQ(metrics::interior_peak(want), 0.0);
+    EXPECT_EQ(metrics::interior_peak(covered(3, 3, 0.25F)), 0.25);
 }
 
 class OnIdeal : public testing::TestWithParam<int> {};
@@ -105,7 +105,7 @@ TEST(MeasuredScene, PeakIsNineTenths) {
     expose(scene);
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
     Renderer().render(scene, frame);
-    EXPECT_NEAR(interior_peak(frame), 0.9, 1e-6);
+    EXPECT_NEAR(metrics::interior_peak(frame), 0.9, 1e-6);
 }
 
 class DocumentSection : public ScratchDirectory {};

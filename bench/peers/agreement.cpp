@@ -5,7 +5,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 
-#include "lab/frame_errors.hpp"
+#include "metrics/frame_errors.hpp"
 
 namespace burnish::peers {
 
@@ -68,12 +68,12 @@ Agreement compare(const Framebuffer& first, const Framebuffer& second, const Fra
             ++(edge ? agreement.edge_pixels : agreement.stray_pixels);
         }
     }
-    const lab::FrameErrors errors = lab::frame_errors(first, second);
+    const metrics::FrameErrors errors = metrics::interior_errors(first, second);
     agreement.rmse = errors.rmse;
     agreement.bias = errors.bias;
     if (truth != nullptr) {
-        agreement.first_rmse = lab::frame_errors(first, *truth).rmse;
-        agreement.second_rmse = lab::frame_errors(second, *truth).rmse;
+        agreement.first_rmse = metrics::interior_errors(first, *truth).rmse;
+        agreement.second_rmse = metrics::interior_errors(second, *truth).rmse;
     }
     return agreement;
 }

@@ -9,9 +9,9 @@
 
 namespace burnish::peers {
 
-/// A frame as floats r, g, b, coverage of 0 or 1: what lab::frame_errors compares. Depths stand in
-/// r, g and b. Without a background (Shading::layer) every pixel is covered; else those are whose
-/// alpha, or depth, is not what it was cleared to.
+/// A frame as floats r, g, b, coverage of 0 or 1: what metrics::interior_errors compares. Depths
+/// stand in r, g and b. Without a background (Shading::layer) every pixel is covered; else those
+/// are whose alpha, or depth, is not what it was cleared to.
 Framebuffer picture_of(const PeerScene& scene, const FrameBytes& bytes);
 
 /// Two pictures of one scene beside each other, and beside the one in double precision.

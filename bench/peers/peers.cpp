@@ -20,7 +20,7 @@
 #include "bench/peers/process.hpp"
 #include "core/parallel.hpp"
 #include "lab/document_section.hpp"
-#include "lab/frame_errors.hpp"
+#include "metrics/frame_errors.hpp"
 #include "reference/render_double.hpp"
 
 namespace burnish::peers {
@@ -87,7 +87,7 @@ Exposed expose(const std::string& name, Size size) {
         render_double(exposed.scene.scene, frame, pool, options);
         return frame;
     };
-    exposed.intensity = static_cast<float>(kPeak / lab::interior_peak(draw()));
+    exposed.intensity = static_cast<float>(kPeak / metrics::interior_peak(draw()));
     exposed.scene = peer_scene(name, size.width, size.height, exposed.intensity);
     exposed.truth.emplace(draw());
     return exposed;

@@ -10,6 +10,7 @@ namespace burnish {
 struct FileLibrary {
     LoadedMesh (*load_mesh)(const std::filesystem::path&);
     Image8 (*load_image)(const std::filesystem::path&);
+    Framebuffer (*load_frame)(const std::filesystem::path&);
     void (*save_frame)(const Framebuffer&, const std::filesystem::path&);
     void (*save_image)(const Image8&, const std::filesystem::path&);
     void (*save_text)(std::string_view, const std::filesystem::path&);

@@ -51,6 +51,10 @@ Image8 load_image(const std::filesystem::path& path) {
     return library().load_image(path);
 }
 
+Framebuffer load_frame(const std::filesystem::path& path) {
+    return library().load_frame(path);
+}
+
 void save_image(const Framebuffer& frame, const std::filesystem::path& path) {
     library().save_frame(frame, path);
 }

@@ -10,6 +10,7 @@ extern "C" const burnish::FileLibrary* burnish_file_library() {
     static constexpr burnish::FileLibrary kLibrary{
         .load_mesh = burnish::read_mesh_file,
         .load_image = burnish::read_image_file,
+        .load_frame = burnish::read_frame_file,
         .save_frame = burnish::write_frame_file,
         .save_image = burnish::write_image_file,
         .save_text = burnish::write_text_file,

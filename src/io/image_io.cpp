@@ -9,12 +9,15 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/atomic_file.hpp"
@@ -56,9 +59,9 @@ void check_size(const OIIO::ImageSpec& spec, const std::string& name) {
                                           std::to_string(Texture::kMaxSize) + " a side");
 }
 
-/// Widens 1 or 2 channels to grey, or 3 to opaque, in place; texels lie `channels` values apart.
+/// Widens 1 or 2 channels to grey, or 3 to `opaque`, in place; texels lie `channels` values apart.
 template <class Value>
-void spread_channels(std::vector<Value>& values, int channels) {
+void spread_channels(std::span<Value> values, int channels, Value opaque) {
     if (channels == 4) return;
     const auto from = static_cast<std::size_t>(channels);
     // From the end, so that nothing is overwritten before it is read.
@@ -67,7 +70,7 @@ void spread_channels(std::vector<Value>& values, int channels) {
         const Value red = source[0];
         const Value green = channels == 3 ? source[1] : red;
         const Value blue = channels == 3 ? source[2] : red;
-        const Value alpha = channels == 2 ? source[1] : std::numeric_limits<Value>::max();
+        const Value alpha = channels == 2 ? source[1] : opaque;
         Value* target = values.data() + i * 4;
         target[0] = red;
         target[1] = green;
@@ -76,9 +79,11 @@ void spread_channels(std::vector<Value>& values, int channels) {
     }
 }
 
-/// Bytes or words of an image file as r, g, b, a.
-template <class Image>
-Image read_pixels(const std::filesystem::path& path, OIIO::TypeDesc type) {
+/// Values of an image file as r, g, b, a. `make_room` takes width and height and returns where they
+/// go: width * height * 4 values. Returns the type of the file's own values.
+template <class Value, class MakeRoom>
+OIIO::TypeDesc read_pixels(const std::filesystem::path& path, Value opaque,
+                           const MakeRoom& make_room) {
     require_readable_file(path);
     require_sound_png(path);
     const std::string name = path.string();
@@ -90,17 +95,35 @@ Image read_pixels(const std::filesystem::path& path, OIIO::TypeDesc type) {
     check_size(input->spec(), name);
     const int channels = std::min(input->spec().nchannels, 4);
     try {
-        Image image(input->spec().width, input->spec().height);
-        const bool ok = input->read_image(0, 0, 0, channels, type, image.rgba.data());
+        const std::span<Value> values = make_room(input->spec().width, input->spec().height);
+        const bool ok = input->read_image(0, 0, 0, channels, OIIO::TypeDescFromC<Value>::value(),
+                                          values.data());
         // A truncated JPEG or TIFF counts as read; only the pending error tells.
         if (!ok || input->has_error())
             throw Error(ErrorCode::bad_input,
                         name + ": damaged image: " + one_line(input->geterror()));
-        spread_channels(image.rgba, channels);
-        return image;
+        spread_channels(values, channels, opaque);
+        return input->spec().format;
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::limit, name + ": too large for the memory");
     }
+}
+
+/// An Image8 or Image16.
+template <class Image>
+Image read_integers(const std::filesystem::path& path) {
+    using Value = typename decltype(Image::rgba)::value_type;
+    Image image;
+    read_pixels(path, std::numeric_limits<Value>::max(), [&image](int width, int height) {
+        image = Image(width, height);
+        return std::span(image.rgba);
+    });
+    return image;
+}
+
+/// OpenImageIO multiplies integers by a rounded reciprocal: every third quotient is another float.
+void divide_exactly(std::span<float> values, float largest) {
+    for (float& value : values) value = std::round(value * largest) / largest;
 }
 
 /// Pixels to be written, described the way OpenImageIO asks for them.
@@ -197,11 +220,25 @@ void write_source(const Source& source, const std::filesystem::path& path) {
 }  // namespace
 
 Image8 read_image_file(const std::filesystem::path& path) {
-    return read_pixels<Image8>(path, OIIO::TypeUInt8);
+    return read_integers<Image8>(path);
 }
 
 Image16 read_image16_file(const std::filesystem::path& path) {
-    return read_pixels<Image16>(path, OIIO::TypeUInt16);
+    return read_integers<Image16>(path);
+}
+
+Framebuffer read_frame_file(const std::filesystem::path& path) {
+    std::optional<Framebuffer> frame;
+    std::span<float> values;
+    const OIIO::TypeDesc type = read_pixels(path, 1.0F, [&](int width, int height) {
+        frame.emplace(width, height, PixelFormat::rgba32f);
+        values = std::span(reinterpret_cast<float*>(frame->pixels()),
+                           4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        return values;
+    });
+    if (type == OIIO::TypeUInt8) divide_exactly(values, 255.0F);
+    if (type == OIIO::TypeUInt16) divide_exactly(values, 65535.0F);
+    return std::move(*frame);
 }
 
 void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path) {

@@ -10,6 +10,7 @@ namespace burnish {
 Image8 read_image_file(const std::filesystem::path& path);
 /// The same with 16 bits: those of the file where it has words, bytes n as n * 257.
 Image16 read_image16_file(const std::filesystem::path& path);
+Framebuffer read_frame_file(const std::filesystem::path& path);
 void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path);
 void write_image_file(const Image8& image, const std::filesystem::path& path);
 

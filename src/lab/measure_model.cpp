@@ -35,7 +35,7 @@ Framebuffer expose_picture(Scene& scene) {
     Light& light = scene.lights.front();
     light.intensity = 1.0F;
     Framebuffer frame = in_double(scene);
-    const double peak = interior_peak(frame);
+    const double peak = metrics::interior_peak(frame);
     if (peak <= 0.0) return frame;
     light.intensity = static_cast<float>(kPeak / peak);
     for (int y = 0; y < frame.height(); ++y) {
@@ -131,9 +131,9 @@ ModelMeasurement measure_model(Model model, std::string_view machine,
         count_resources(scene, measured);
         Framebuffer got(scene.width, scene.height, PixelFormat::rgba32f);
         Renderer({.threads = 1}).render(scene, got);
-        measured.errors = frame_errors(got, want);
+        measured.errors = metrics::interior_errors(got, want);
         if (parameters.shift_variant && scene.machine.numbers == NumberModel::wide)
-            measured.on_its_grid = frame_errors(got, in_double(scene, true));
+            measured.on_its_grid = metrics::interior_errors(got, in_double(scene, true));
         measured.estimate = estimate_error(material, scene.machine);
     } catch (const Error& error) {
         measured.refusal = error.what();

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/frame_errors.hpp"
+#include "metrics/frame_errors.hpp"
 #include "models/error_estimate.hpp"
 
 /// Reflectance models on machines against the same formulas in double precision. What is measured
@@ -51,10 +51,10 @@ struct ModelMeasurement {
     int passes = 0;
     int units = 0;   ///< textures: those of the material layer and tables
     int stages = 0;  ///< general stages, before they are split into passes
-    FrameErrors errors;
+    metrics::FrameErrors errors;
     /// Against the double picture with the machine's corners and texel coordinates; of parameters
     /// that vary, on wide machines.
-    std::optional<FrameErrors> on_its_grid;
+    std::optional<metrics::FrameErrors> on_its_grid;
     ErrorEstimate estimate;  ///< without the picture
 };
 

@@ -36,7 +36,7 @@ const ModelMeasurement* find(std::span<const ModelMeasurement> measurements, Mod
 /// Five cells: passes, units and stages in one; RMSE, P99, bias, step.
 std::string cells(const ModelMeasurement* m) {
     if (m == nullptr || !m->refusal.empty()) return " no | | | | |";
-    const FrameErrors& e = m->errors;
+    const metrics::FrameErrors& e = m->errors;
     return fmt::format(" {}, {}, {} | {:.4f} | {:.4f} | {:+.4f} | {:.1f} |", m->passes, m->units,
                        m->stages, e.rmse, e.p99, e.bias, e.step_excess * 255.0);
 }
@@ -65,7 +65,8 @@ enum class Against { exact, its_grid };
 std::string short_cell(const ModelMeasurement* m, Against against) {
     if (m == nullptr) return "";
     if (!m->refusal.empty()) return "no";
-    const FrameErrors& errors = against == Against::exact ? m->errors : m->on_its_grid.value();
+    const metrics::FrameErrors& errors =
+        against == Against::exact ? m->errors : m->on_its_grid.value();
     return fmt::format("{:.4f}, {:.1f}", errors.rmse, errors.step_excess * 255.0);
 }
 
@@ -182,7 +183,7 @@ std::string model_json(std::span<const ModelMeasurement> measurements) {
             text += fmt::format("\"refusal\": {}}}", json_text(m.refusal));
             continue;
         }
-        const FrameErrors& e = m.errors;
+        const metrics::FrameErrors& e = m.errors;
         text += fmt::format(
             "\"passes\": {}, \"units\": {}, \"stages\": {}, \"pixels\": {}, \"rmse\": {:.6f}, "
             "\"p99\": {:.6f}, \"largest\": {:.6f}, \"bias\": {:.6f}, \"step_excess\": {:.6f}, "

@@ -43,8 +43,8 @@ double component(const Texture& map, VectorEncoding encoding, int x, int y, int 
     return decode_vector_code(encoding, map.texel(0, 0, x, y, c), has_words(map.format()) ? 16 : 8);
 }
 
-/// `v` made perpendicular to n and unit; where it has nothing left, the direction that it tends to
-/// as n approaches it from the z axis.
+}  // namespace
+
 glm::dvec3 perpendicular(const glm::dvec3& v, const glm::dvec3& n) {
     const double along = glm::dot(v, n);
     const glm::dvec3 rest = v - n * along;
@@ -55,8 +55,6 @@ glm::dvec3 perpendicular(const glm::dvec3& v, const glm::dvec3& n) {
     const double left = std::sqrt(glm::dot(fallback, fallback));
     return left > 1e-6 ? fallback / left : glm::dvec3(1.0, 0.0, 0.0);
 }
-
-}  // namespace
 
 TexelSource::TexelSource(const Material& material) : m_material(material) {
     if (!material.tangent_map != !material.bitangent_map)

@@ -18,6 +18,10 @@ struct TexelParameters {
     glm::dvec3 kd{0.0}, ks{0.0};          ///< not negative
 };
 
+/// `v` made perpendicular to the unit vector n, and unit; where it has nothing left, the direction
+/// that it tends to as n approaches it from the z axis.
+[[nodiscard]] glm::dvec3 perpendicular(const glm::dvec3& v, const glm::dvec3& n);
+
 /// The parameters of a material texel by texel, on the grid of its finest map: the one with the
 /// most texels. Other maps are sampled at its texel centres with their own filter, vectors and
 /// colours after decoding. In double, of + - * / and sqrt and core/dmath.hpp alone: the same bits

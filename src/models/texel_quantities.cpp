@@ -10,19 +10,6 @@ namespace burnish {
 
 namespace {
 
-/// Parameters that quantities are made of.
-std::vector<const Expr*> parameters_of(const std::vector<const Expr*>& quantities) {
-    std::vector<const Expr*> found;
-    std::set<const Expr*, ByAge> seen;
-    const auto visit = [&](const auto& self, const Expr& e) -> void {
-        if (!seen.insert(&e).second) return;
-        if (e.op == ExprOp::parameter) found.push_back(&e);
-        for (const ExprPtr& arg : e.args) self(self, *arg);
-    };
-    for (const Expr* q : quantities) visit(visit, *q);
-    return found;
-}
-
 std::vector<const Expr*> definitions_of(const std::vector<const Expr*>& quantities) {
     std::vector<const Expr*> definitions;
     for (const Expr* q : quantities) definitions.push_back(q->args.front().get());
@@ -44,6 +31,18 @@ Read reader_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<const Expr*> parameters_of(const std::vector<const Expr*>& quantities) {
+    std::vector<const Expr*> found;
+    std::set<const Expr*, ByAge> seen;
+    const auto visit = [&](const auto& self, const Expr& e) -> void {
+        if (!seen.insert(&e).second) return;
+        if (e.op == ExprOp::parameter) found.push_back(&e);
+        for (const ExprPtr& arg : e.args) self(self, *arg);
+    };
+    for (const Expr* q : quantities) visit(visit, *q);
+    return found;
+}
 
 TexelTape::TexelTape(const std::vector<const Expr*>& quantities)
     : m_tape(definitions_of(quantities), parameters_of(quantities)) {

@@ -9,6 +9,9 @@
 
 namespace burnish {
 
+/// The texel's parameters that quantities are made of, each once.
+std::vector<const Expr*> parameters_of(const std::vector<const Expr*>& quantities);
+
 /// The values of `quantities` at a texel, for leaves that TexelParameters has.
 class TexelTape {
   public:

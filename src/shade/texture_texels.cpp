@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/covered.hpp"
+
 namespace burnish {
 
 namespace {
@@ -67,25 +69,6 @@ int quantised(float x, bool is_signed, int bits) {
     const auto scale = static_cast<float>(is_signed ? top + 1 : top);
     return std::min(static_cast<int>(std::floor(clamped * scale + 0.5F)), top);
 }
-
-/// What texel `at` of `size` covers of `from` texels, in units of 1 / (from * size) of the whole.
-struct Covered {
-    int first, last;
-    int from, size, at;
-
-    Covered(int from_texels, int to_texels, int index)
-        : first(static_cast<int>(std::int64_t{index} * from_texels / to_texels)),
-          last(static_cast<int>(((std::int64_t{index} + 1) * from_texels - 1) / to_texels)),
-          from(from_texels),
-          size(to_texels),
-          at(index) {}
-    [[nodiscard]] std::int64_t weight(int texel) const {
-        const std::int64_t low = std::max(std::int64_t{at} * from, std::int64_t{texel} * size);
-        const std::int64_t high =
-            std::min((std::int64_t{at} + 1) * from, (std::int64_t{texel} + 1) * size);
-        return high - low;
-    }
-};
 
 template <class Channel>
 void box_filter(const TexelLevel& from, TexelLevel& to) {

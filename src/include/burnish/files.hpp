@@ -47,6 +47,10 @@ LoadedMesh load_mesh(const std::filesystem::path& path);
 /// Values are not colour-converted and alpha is not multiplied in.
 Image8 load_image(const std::filesystem::path& path);
 
+/// The same as an rgba32f frame: floats of the file as they are, integers over their largest (a byte
+/// n is n / 255, a word n / 65535), a missing alpha 1.
+Framebuffer load_frame(const std::filesystem::path& path);
+
 /// PNG, EXR, or whatever OpenImageIO writes, by extension; "-" writes PNG to standard output.
 /// 8- and 16-bit frames go to 8- and 16-bit files where the format has them.
 void save_image(const Framebuffer& frame, const std::filesystem::path& path);

@@ -127,6 +127,30 @@ enum class VectorEncoding {
     d,  ///< (n - 128) / 128, as signed texels and expand have it
 };
 
+/// How the mip levels of a material's parameters come about: docs/mipmaps.md has formulas and
+/// sources.
+enum class MipMethod {
+    none,                ///< level 0 alone
+    box,                 ///< parameters and vectors averaged, as mip levels of maps are
+    normalize,           ///< and vectors made unit again
+    mag,                 ///< and the normal's length kept for the diffuse part
+    toksvig,             ///< and for the lobe's width
+    clean,               ///< the normals' variance in all directions
+    lean,                ///< their covariance
+    moments,             ///< energy-weighted moments of the lobes themselves
+    moments_unweighted,  ///< the same with equal weights, the lobe's height averaged
+};
+
+/// What a material has for pixels that cover many texels.
+struct MaterialMipmaps {
+    MipMethod method = MipMethod::none;
+    /// Moments of clean, lean and moments are stored in so many bits: 8, 16, 32; 0: in double
+    /// precision.
+    int bits = 0;
+
+    friend bool operator==(const MaterialMipmaps&, const MaterialMipmaps&) = default;
+};
+
 /// How a surface reflects. Maps are data and never decoded from sRGB, unless `srgb_colors` says so.
 struct Material {
     std::string name = "default";
@@ -150,6 +174,8 @@ struct Material {
     TexturePtr bitangent_map;  ///< b * map_scale / alpha_y, same code; null: made from the above
     float map_scale = 0.0F;    ///< m of the two maps, needed if they are given: 1, 1/2, 1/4 or 1/8
     TexturePtr specular_map;   ///< multiplies ks, where the machine has a third unit
+    /// Nothing: what a machine keeps of the maps is averaged where one of them has levels.
+    std::optional<MaterialMipmaps> mipmaps;
     std::optional<ProgramMaterial> program;  ///< instead of the model
     AlphaTest alpha_test;
 };

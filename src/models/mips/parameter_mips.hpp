@@ -1,0 +1,33 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <functional>
+#include <vector>
+
+#include "models/mips/lobe_shape.hpp"
+#include "models/texel.hpp"
+
+namespace burnish::mips {
+
+/// Parameters texel by texel, rows packed, row 0 on top.
+struct ParameterGrid {
+    int width = 1, height = 1;
+    std::vector<TexelParameters> texels;
+
+    [[nodiscard]] const TexelParameters& at(int x, int y) const {
+        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
+};
+
+/// Texel (x, y) of level 0.
+using TexelReader = std::function<TexelParameters(int x, int y)>;
+
+/// Mip levels 1, 2, ... down to 1 x 1 of a material of width x height texels; none for
+/// MipMethod::none. Sides are half of those before, rounded down, at least 1; a texel stands for
+/// what it covers of the level before. Level k is made from what level k - 1 has stored, never from
+/// its parameters. In double, of + - * / and sqrt alone: the same bits everywhere.
+std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, int height,
+                                          const LobeShape& shape, const MaterialMipmaps& mipmaps);
+
+}  // namespace burnish::mips
