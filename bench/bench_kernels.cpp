@@ -714,6 +714,8 @@ void add_levels() {
     for (int plane = 16; plane < 32; ++plane) fetched.planes.push_back(plane);
     add_packet_stage("fetch_quartet", &KernelTable::fetch_quartet, packet,
                      FetchQuartetCtx{texels.data(), {16, 20, 24, 28}, 2112}, fetched);
+    add_packet_stage("prefetch_quartet", &KernelTable::prefetch_quartet, packet,
+                     PrefetchQuartetCtx{texels.data(), 2112}, {});
     for (const int k : {0, 1})
         for (int i = 0; i < kPacketSize; ++i)
             packet.plane(k)[i] = static_cast<std::int16_t>(random.below(16385));

@@ -220,12 +220,6 @@ struct StoreWide {
     static float to_float(std::int16_t v) { return static_cast<float>(v) / 16384.0F; }
 };
 
-/// kLanes pixels one after the other, as where a triangle covers whole blocks.
-inline bool are_consecutive(const std::uint16_t* pixels) {
-    const auto* const p = reinterpret_cast<const std::int16_t*>(pixels);
-    return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.of16));
-}
-
 /// Pixels of kLanes fragments, four bytes each: zipping keeps to the lanes, so fragments
 /// 8 p .. 8 p + 3 are in the low half and the next four in the high one.
 struct Pixels8 {

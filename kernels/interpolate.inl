@@ -3,7 +3,7 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
     const int attribute_count = ctx.attribute_count;
     if (attribute_count == 0) return;
     const FragmentRuns runs(packet, ctx);
-    runs.for_each_vector([&](int first, const PixelPositions& pixel, const auto& row) {
+    const auto vector = [&](int first, const PixelPositions& pixel, const auto& row) {
         const auto at_pixel = [&](int equation) {
             const int k = 3 * equation;
             return (row(k) + row(k + 1) * pixel.x) + row(k + 2) * pixel.y;
@@ -14,7 +14,30 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
         for (int k = 0; k < attribute_count; ++k) {
             store(out + k * kAttributeStride, at_pixel(k + 1) * w);
         }
-    });
+    };
+    // What x adds is the same in all of them.
+    const auto column = [&](int first, const auto& pixel, const auto& row) {
+        const auto begin = [&](int equation) {
+            const int k = 3 * equation;
+            return row(k) + row(k + 1) * pixel[0].x;
+        };
+        const float level_w = row.level_w();
+        F32 w[kColumnVectors];
+        const F32 first_w = begin(0), down_w = row(2);
+        for (int v = 0; v < kColumnVectors; ++v) {
+            w[v] =
+                level_w != 0.0F ? F32(level_w) : divide(F32(1.0F), first_w + down_w * pixel[v].y);
+        }
+        float* const out = packet.attributes + first;
+        for (int k = 0; k < attribute_count; ++k) {
+            const F32 beginning = begin(k + 1), down = row(3 * k + 5);
+            for (int v = 0; v < kColumnVectors; ++v) {
+                store(out + k * kAttributeStride + v * kLanes32,
+                      (beginning + down * pixel[v].y) * w[v]);
+            }
+        }
+    };
+    runs.for_each_vector(vector, column);
 }
 
 struct Vector3 {

@@ -125,6 +125,13 @@ struct FetchQuartetCtx {
     std::int32_t pitch;  ///< bytes
 };
 
+/// Has texels of a quartet brought closer that a packet's addresses ask for, while other stages
+/// run. Changes nothing.
+struct PrefetchQuartetCtx {
+    const std::uint8_t* texels;
+    std::int32_t pitch;  ///< bytes
+};
+
 /// A function of one or two wide registers, looked up. A texel is two words, value - 32768: its own
 /// and that of the texel below, 4 bytes from left to right. Of either axis the code v in `plane` is
 /// the coordinate ((v / 16384) * scale + offset) / divisor, with which AddressCtx's clamp_to_edge,

@@ -949,6 +949,8 @@ void fetch_words(Packet& packet, const FetchWordsCtx& ctx) noexcept {
     }
 }
 
+void prefetch_quartet(Packet& /*packet*/, const PrefetchQuartetCtx& /*ctx*/) noexcept {}
+
 void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
     for (int i = 0; i < packet.count; ++i) {
         const Int wx = packet.weight_x[i], wy = packet.weight_y[i];
@@ -1520,6 +1522,7 @@ const KernelTable& table_reference() noexcept {
         .fetch_hilo = fetch_hilo,
         .fetch_words = fetch_words,
         .fetch_quartet = fetch_quartet,
+        .prefetch_quartet = prefetch_quartet,
         .look_up_table = look_up_table,
         .blend_levels = blend_levels,
         .hilo = hilo,

@@ -1,3 +1,18 @@
+/// kLanes pixels one after the other, as where a triangle covers whole blocks.
+inline bool are_consecutive(const std::uint16_t* pixels) {
+    const auto* const p = reinterpret_cast<const std::int16_t*>(pixels);
+    return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.of16));
+}
+
+/// Vectors of fragments that lie below each other: the same columns of one block.
+inline constexpr int kColumnVectors = 4;
+inline bool are_below_each_other(const std::uint16_t* pixels) {
+    constexpr int kFragments = kColumnVectors * kLanes32;
+    return pixels[0] % kBlockPixels <= kBlockPixels - kFragments &&
+           pixels[kLanes] == pixels[0] + kLanes && are_consecutive(pixels) &&
+           are_consecutive(pixels + kLanes);
+}
+
 /// Rows of the equations at fragments of one run.
 struct RowsOfOneRun {
     F32 operator()(int k) const { return F32(at(k)); }
@@ -36,24 +51,51 @@ class FragmentRuns {
     /// of the equations at each of them.
     template <class F>
     void for_each_vector(F&& f) const {
-        for (int i = 0; i < m_end; i += kLanes32) {
+        for (int i = 0; i < m_end; i += kLanes32) call(i, f);
+    }
+
+    /// The same, but g(first fragment, pixel positions of each, row) for kColumnVectors of one run
+    /// that lie below each other.
+    template <class F, class G>
+    void for_each_vector(F&& f, G&& g) const {
+        constexpr int kFragments = kColumnVectors * kLanes32;
+        for (int i = 0; i < m_end;) {
             const int run = m_run_of[i];
-            const float* const equations = m_ctx.equations + run;
-            const std::uint16_t* const pixels = m_packet.pixels + i;
-            if (run == m_run_of[i + kLanes32 - 1]) {
-                f(i, positions(pixels, I32(m_offset_x[run]), I32(m_offset_y[run])),
-                  RowsOfOneRun{equations});
+            const bool is_column = kLanes32 >= kBlockSize && i + kFragments <= m_end &&
+                                   m_run_of[i + kFragments - 1] == run &&
+                                   are_below_each_other(m_packet.pixels + i);
+            if (!is_column) {
+                call(i, f);
+                i += kLanes32;
                 continue;
             }
-            // Fragments of a vector belong to runs that follow each other, no more than its lanes.
-            const auto* const numbers = reinterpret_cast<const std::uint16_t*>(m_run_of + i);
-            const LaneOrder spread(load_widened(numbers) - I32(run));
-            f(i, positions(pixels, spread(load(m_offset_x + run)), spread(load(m_offset_y + run))),
-              RowsOfRuns{equations, spread});
+            PixelPositions pixel[kColumnVectors];
+            for (int v = 0; v < kColumnVectors; ++v)
+                pixel[v] = positions(m_packet.pixels + i + v * kLanes32, I32(m_offset_x[run]),
+                                     I32(m_offset_y[run]));
+            g(i, pixel, RowsOfOneRun{m_ctx.equations + run});
+            i += kFragments;
         }
     }
 
   private:
+    template <class F>
+    [[gnu::always_inline]] void call(int i, F&& f) const {
+        const int run = m_run_of[i];
+        const float* const equations = m_ctx.equations + run;
+        const std::uint16_t* const pixels = m_packet.pixels + i;
+        if (run == m_run_of[i + kLanes32 - 1]) {
+            f(i, positions(pixels, I32(m_offset_x[run]), I32(m_offset_y[run])),
+              RowsOfOneRun{equations});
+            return;
+        }
+        // Fragments of a vector belong to runs that follow each other, no more than its lanes.
+        const auto* const numbers = reinterpret_cast<const std::uint16_t*>(m_run_of + i);
+        const LaneOrder spread(load_widened(numbers) - I32(run));
+        f(i, positions(pixels, spread(load(m_offset_x + run)), spread(load(m_offset_y + run))),
+          RowsOfRuns{equations, spread});
+    }
+
     const Packet& m_packet;
     const AttributesCtx& m_ctx;
     int m_end;

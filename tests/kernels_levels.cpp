@@ -284,6 +284,10 @@ TEST_P(KernelTest, TexelsOfFourTexturesOfWords) {
             for (int c = 0; c < 4 && plane >= 0; ++c) written.planes.push_back(plane + c);
         ASSERT_EQ(stage_difference(table(), &KernelTable::fetch_quartet, packet, ctx, written), "")
             << name("fetch_quartet") << ", seed " << seed;
+        const PrefetchQuartetCtx prefetch{ctx.texels, ctx.pitch};
+        ASSERT_EQ(stage_difference(table(), &KernelTable::prefetch_quartet, packet, prefetch, {}),
+                  "")
+            << name("prefetch_quartet") << ", seed " << seed;
     }
 }
 

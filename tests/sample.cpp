@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <burnish/error.hpp>
+#include <burnish/program_text.hpp>
 
 #include "kernel_test.hpp"
 #include "shade/shading.hpp"
@@ -206,6 +207,57 @@ TEST_P(KernelTest, QuartetsAreSampledAsTheirTextures) {
         };
         EXPECT_EQ(sampled(quartet, 2), sampled(singles, 4));
     }
+}
+
+/// A material of four maps of words with `side` texels both ways, lit per pixel.
+Shading lit_with_maps(int side) {
+    const Image16 image(side, side);
+    std::vector<TexturePtr> maps;
+    for (int k = 0; k < 4; ++k) {
+        maps.push_back(std::make_shared<const Texture>(
+            std::span(&image, 1), TextureDescription{.format = TexelFormat::rgba16}));
+    }
+    ProgramMaterial material;
+    material.units = Texture::quartet(maps);
+    material.combiners = parse_combiners(R"(!!RC1.0
+{ rgb { spare0 = tex0 . tex1; } }
+{ rgb { discard = spare0 * tex2; discard = tex3 * col0; spare1 = sum(); } }
+out.rgb = spare1;
+out.a = unsigned_invert(zero);
+)")
+                             .program.value();
+    material.col0_rgb = ColorInput::half_tangent;
+    Shading shading;
+    plan_shading(shading, {&material, 1}, machine_profile("ideal"), true);
+    return shading;
+}
+
+// Packets have the addresses of a large quartet before lighting and ask for its texels; every
+// register gets what it gets otherwise.
+TEST_P(KernelTest, TexelsOfLargeQuartetsAreAskedForBeforeLighting) {
+    const Shading small = lit_with_maps(64), large = lit_with_maps(200);
+    ASSERT_TRUE(std::holds_alternative<LightingCtx>(small.packet_inputs.front()));
+    EXPECT_EQ(small.packet_inputs.size(), small.inputs.size());
+    const std::vector<InputOp>& ops = large.packet_inputs;
+    ASSERT_EQ(ops.size(), large.inputs.size() + 1);
+    EXPECT_TRUE(std::holds_alternative<AddressCtx>(ops[0]));
+    EXPECT_TRUE(std::holds_alternative<PrefetchQuartetCtx>(ops[1]));
+    EXPECT_TRUE(std::holds_alternative<LightingCtx>(ops[2]));
+    Random random(5);
+    AlignedVector<float> attributes(std::size_t{kMaxAttributes} * kAttributeStride);
+    for (float& x : attributes) x = random.real(-1.0F, 2.0F);
+    const auto fed = [&](const std::vector<InputOp>& inputs) {
+        PacketMemory memory;
+        AlignedVector<float> own = attributes;
+        AlignedVector<std::int16_t> planes(
+            static_cast<std::size_t>(large.program.plane_count) * kPacketSize, 77);
+        Packet packet = memory.view();
+        packet.attributes = own.data();
+        packet.planes = planes.data();
+        feed_inputs(inputs, NumberModel::wide, table(), {}, packet);
+        return planes;
+    };
+    EXPECT_EQ(fed(ops), fed(large.inputs));
 }
 
 // Between stages a table brings what its texture does, to the channels that are wanted.

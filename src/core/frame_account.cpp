@@ -29,6 +29,7 @@ constexpr Family kFamilies[] = {
     {"lighting", FrameStage::interpolate},
     {"encode_", FrameStage::interpolate},
     {"fetch_", FrameStage::texture, true},
+    {"prefetch_", FrameStage::texture},
     {"look_up_table", FrameStage::texture, true},
     {"address", FrameStage::texture},
     {"decode_", FrameStage::texture},

@@ -30,11 +30,12 @@ struct BlendedCtx {
 };
 
 /// Brings a packet's attributes to its registers, before the program runs or between its stages.
+/// PrefetchQuartetCtx is in Shading's packet_inputs alone.
 using InputOp =
     std::variant<ClearCtx, CopyCtx, FillCtx, LightingCtx, EncodeCtx, AddressCtx, FetchCtx,
                  DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
                  AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
                  LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
-                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx>;
+                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx, PrefetchQuartetCtx>;
 
 }  // namespace burnish

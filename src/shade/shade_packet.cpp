@@ -91,6 +91,7 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const FetchHiloCtx& c) const { k.fetch_hilo(p, c); }
         void operator()(const FetchWordsCtx& c) const { k.fetch_words(p, c); }
         void operator()(const FetchQuartetCtx& c) const { k.fetch_quartet(p, c); }
+        void operator()(const PrefetchQuartetCtx& c) const { k.prefetch_quartet(p, c); }
         void operator()(const LookUpTableCtx& c) const { k.look_up_table(p, c); }
         void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
         void operator()(const HiloCtx& c) const { k.hilo(p, c); }
@@ -142,32 +143,37 @@ void run_pass(const EarlierPass& pass, const KernelTable& kernels, const Attribu
     }
 }
 
-/// Constant planes are in place unless another program ran before; so is what the first
-/// `inputs_in_place` input operations bring.
-void run_light(const LightShading& light, bool constants_in_place, std::size_t inputs_in_place,
+/// Constant planes are in place unless another program ran before.
+void run_light(const LightShading& light, std::span<const InputOp> inputs, bool constants_in_place,
                const KernelTable& kernels, const AttributesCtx& runs, Packet& packet) {
     for (const EarlierPass& pass : light.earlier_passes) run_pass(pass, kernels, runs, packet);
     if (!constants_in_place || !light.earlier_passes.empty()) load_constants(light.program, packet);
-    const std::span<const InputOp> inputs = light.inputs;
-    feed_inputs(inputs.subspan(inputs_in_place), light.program.numbers, kernels, runs, packet);
+    feed_inputs(inputs, light.program.numbers, kernels, runs, packet);
     run_program(light, kernels, runs, packet);
+}
+
+/// The input operations of the only light: as packets run them, or those of a corner, without what
+/// the corner before it has brought already.
+std::span<const InputOp> inputs_of_light(const Shading& shading, bool again) {
+    if (!shading.corners) return shading.packet_inputs;
+    const bool alone = again && shading.earlier_passes.empty();
+    return std::span(shading.inputs).subspan(alone ? shading.fixed_inputs : 0);
 }
 
 /// The sum of all lights, once more after `again` for other coordinates of texels.
 void run_lights(const Shading& shading, bool again, const KernelTable& kernels,
                 const AttributesCtx& runs, Packet& packet) {
     if (shading.further_lights.empty()) {
-        const bool alone = again && shading.earlier_passes.empty();
-        return run_light(shading, true, alone ? shading.fixed_inputs : 0, kernels, runs, packet);
+        return run_light(shading, inputs_of_light(shading, again), true, kernels, runs, packet);
     }
     const bool nine_bit = shading.program.numbers == NumberModel::nine_bit;
     const auto add = nine_bit ? kernels.portion_nine_bit : kernels.portion_wide;
     std::fill_n(packet.planes + shading.zero_plane * kPacketSize, kPacketSize, std::int16_t{0});
     for (const FurtherLight& light : shading.further_lights) {
-        run_light(light, false, 0, kernels, runs, packet);
+        run_light(light, light.inputs, false, kernels, runs, packet);
         add(packet, light.add);
     }
-    run_light(shading, false, 0, kernels, runs, packet);
+    run_light(shading, shading.inputs, false, kernels, runs, packet);
     add(packet, shading.add_first);
 }
 

@@ -10,6 +10,7 @@
 
 #include "machine/material_passes.hpp"
 #include "shade/normalisation_cube.hpp"
+#include "shade/packet_inputs.hpp"
 
 namespace burnish {
 
@@ -545,6 +546,7 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     if (shading.corners) plan_corners(shading);
     const bool flat = !shading.reads_frame && shading.varying_list.empty();
     if (flat && !wanted.everything) shading.frame_attributes = 0;
+    shading.packet_inputs = plan_packet_inputs(shading);
 }
 
 }  // namespace burnish

@@ -80,6 +80,8 @@ struct Shading : LightShading {
     bool quads = false;        ///< fragments must come as whole 2x2 quads of one triangle
     bool reads_light = false;  ///< the inputs depend on the light
     bool reads_frame = false;  ///< or on attributes of the frames
+    /// `inputs` as packets run them where there is one light.
+    std::vector<InputOp> packet_inputs;
     std::vector<FurtherLight> further_lights;
     PortionCtx add_first{};                ///< the first light to the further ones
     int zero_plane = -1;                   ///< for sums of lights: must hold 0

@@ -148,6 +148,7 @@ void ExactInputs::feed(const InputOp& op) {
             }
         }
         void operator()(const BlendedCtx& /*c*/) const {}  // a fragment alone goes through all
+        void operator()(const PrefetchQuartetCtx& /*c*/) const {}  // of whole packets
         void operator()(const HiloCtx& c) const {
             for (int k = 0; k < 2; ++k) {
                 to.m_attributes[static_cast<std::size_t>(c.out + k)] = plane(c.plane + k);
