@@ -14,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::array<std::string_view, 43> kKeys{"name",
+constexpr std::array<std::string_view, 44> kKeys{"name",
                                                  "model",
                                                  "model_text",
                                                  "kd",
