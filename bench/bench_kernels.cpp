@@ -698,6 +698,12 @@ void add_levels() {
     corner.level = 8;
     add_packet_stage("texel_corner", &KernelTable::texel_corner, packet, corner,
                      {.planes = {6, 7, 8}, .attributes = {2, 3}});
+    for (int i = 0; i < kPacketSize; ++i) {
+        packet.plane(6)[i] = static_cast<std::int16_t>(i);
+        packet.plane(7)[i] = static_cast<std::int16_t>(255 - i);
+        for (int k = 10; k < 26; ++k)
+            packet.plane(k)[i] = static_cast<std::int16_t>(random.below(256));
+    }
     add_packet_stage("filter_nine_bit", &KernelTable::filter_nine_bit, packet, FilterCtx{10, 6, 30},
                      {.planes = {30, 31, 32, 33}});
     add_packet_stage("filter_wide", &KernelTable::filter_wide, packet, FilterCtx{10, 6, 30},

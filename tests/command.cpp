@@ -131,6 +131,19 @@ TEST_F(Command, QuietPrintsNothing) {
     EXPECT_EQ(result.out + result.err, "");
 }
 
+TEST_F(Command, FilterOrderChangesThePictureOfMaps) {
+    write_scene("s.toml",
+                "material = \"m\"\n[[materials]]\nname = \"m\"\ngenerator = \"brushed\"\n");
+    const auto texels = [&](const std::string& options) {
+        const Result result = run("render s.toml -o o.png " + options);
+        EXPECT_EQ(result.code, 0) << options << result.err;
+        return load_image(path("o.png")).rgba;
+    };
+    const auto before = texels("--filter-order before");
+    EXPECT_TRUE(texels("--filter-order after") != before);
+    EXPECT_TRUE(texels("-D machine.filter_order=after") == texels("--filter-order after"));
+}
+
 TEST_F(Command, OptionsChangeThePicture) {
     write_scene("s.toml");
     ASSERT_EQ(run("render s.toml -o plain.png").code, 0);
@@ -139,9 +152,8 @@ TEST_F(Command, OptionsChangeThePicture) {
          {"--camera-position 3,0,0.5", "--camera-focal-point 0.5,0,0", "--camera-azimuth 30",
           "--camera-elevation 20", "--camera-zoom 2", "--camera-view-angle 60", "--light 0,-1,0",
           "--light 0,2,0,1", "--light 1,1,1 --light -1,0,1", "--half-vector cube:4",
-          "--filter-order after", "-D machine.viewer=infinite",
-          "-D machine.normalise_half_vector=false", "--aov bitangent", "--aov stripes",
-          "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
+          "-D machine.viewer=infinite", "-D machine.normalise_half_vector=false", "--aov bitangent",
+          "--aov stripes", "--background 0,0,0", "-D ambient=[0.5,0.5,0.5]"}) {
         const Result result = run(std::string("render s.toml -o other.png ") + option);
         ASSERT_EQ(result.code, 0) << option << result.err;
         EXPECT_TRUE(load_image(path("other.png")).rgba != plain.rgba) << option;
