@@ -4,9 +4,12 @@
 #include <burnish/files.hpp>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <variant>
 
 #include "lab/experiment/experiments.hpp"
+#include "lab/experiment/formula.hpp"
 #include "lab/experiment/verdicts.hpp"
 #include "tests/json.hpp"
 #include "tests/run_command.hpp"
@@ -217,6 +220,38 @@ TEST_F(ExperimentCommand, BadSettingsNameTheCell) {
     } catch (const Error& error) {
         EXPECT_SAYS(std::string(error.what()), "unknown key 'alpha'");
         EXPECT_SAYS(std::string(error.what()), "cell ball-nv2a-0.3 of tiny");
+    }
+}
+
+TEST(Formulas, KnownValues) {
+    const std::map<std::string, double> variables{{"N", 12.0}, {"width", 0.5}};
+    const auto value = [&](const char* text) { return lab::evaluate_formula(text, variables); };
+    EXPECT_DOUBLE_EQ(value("$width * sqrt(($N + 4) / 4)"), 1.0);
+    EXPECT_DOUBLE_EQ(value("1 - 2 - 3 * 2 ^ 3"), -25.0);
+    EXPECT_DOUBLE_EQ(value("-2 * -3"), 6.0);
+    EXPECT_NEAR(value("cos(60) + sin(30)"), 1.0, 1e-12);
+    EXPECT_DOUBLE_EQ(value("round(2.5) + min($N, 3) + log2(8)"), 9.0);
+    for (const char* text :
+         {"", "1 +", "(1", "1 2", "$M", "sqrt 4", "1 / 0", "sqrt(0 - 1)", "min(1)"})
+        EXPECT_THROW(value(text), Error) << text;
+    EXPECT_THROW(value(std::string(100000, '(').c_str()), Error);
+    EXPECT_EQ(lab::with_formulas(R"([1, "=$N / 8", "a"])", variables), R"([1, 1.5, "a"])");
+}
+
+TEST_F(ExperimentCommand, MirroredChartsMeetAtTheSameU) {
+    write(path("mirrored.toml"),
+          "schema = 1\n[[objects]]\nshape = \"plane\"\ncolumns = 4\nrows = 1\n"
+          "mirror_u = true\n");
+    const Scene scene = load_scene(path("mirrored.toml")).scene;
+    const Mesh& mesh = std::get<Mesh>(scene.objects.front().geometry);
+    EXPECT_EQ(mesh.triangle_count(), 8U);
+    EXPECT_EQ(mesh.vertex_count(), 12U) << "two columns of vertices in the middle";
+    for (const VertexFrame& vertex : mesh.frames()) {
+        EXPECT_FLOAT_EQ(vertex.uv.x, std::abs(2.0F * vertex.position.x)) << vertex.position.x;
+        if (vertex.position.x != 0.0F) {
+            EXPECT_FLOAT_EQ(vertex.tangent.x, vertex.position.x > 0.0F ? 1.0F : -1.0F);
+        }
+        EXPECT_FLOAT_EQ(vertex.tangent.w * vertex.tangent.x, 1.0F) << "the bitangent stays";
     }
 }
 
