@@ -6,6 +6,7 @@ namespace burnish::BURNISH_ISA {
 namespace {
 
 #include "kernels/groups.inl"
+#include "kernels/runs.inl"
 
 #include "kernels/combine.inl"
 #include "kernels/fetch.inl"
