@@ -168,11 +168,10 @@ struct PrintText {
     std::string text;
 };
 
-using Command =
-    std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
-                 CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
-                 BakeMaterialOptions, BakeMipsOptions, BakeAnisotropyOptions, BakeMeshOptions,
-                 ExperimentOptions>;
+using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
+                             CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
+                             BakeMaterialOptions, BakeMipsOptions, BakeAnisotropyOptions,
+                             BakeMeshOptions, ExperimentOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

@@ -3,7 +3,8 @@
 #include <burnish/shapes.hpp>
 #include <cmath>
 #include <memory>
-#include <numbers>
+
+#include "core/dmath.hpp"
 
 namespace burnish::lab {
 
@@ -28,7 +29,7 @@ Scene lobe_strip(double width, double exponent, std::string_view machine, HalfVe
     const double distance = 0.5 * std::sqrt(1.0 - kStripReach * kStripReach) / kStripReach;
     scene.camera.position = {0.0F, 0.0F, static_cast<float>(distance)};
     scene.camera.view_angle = static_cast<float>(
-        2.0 * std::atan(0.5 * scene.height / scene.width / distance) * 180.0 / std::numbers::pi);
+        2.0 * dmath::atan(0.5 * scene.height / scene.width / distance) * 180.0 / dmath::kPi);
     scene.lights.push_back({.position = scene.camera.position, .position_w = 1.0F});
     scene.objects.push_back({Mesh(shapes::plane(512, 1)),
                              std::make_shared<const Material>(std::move(material)),

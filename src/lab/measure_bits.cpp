@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dmath.hpp"
 #include "lab/attribution.hpp"
 #include "lab/document_section.hpp"
 #include "lab/lobe_strip.hpp"
@@ -30,7 +31,7 @@ double lobe(double h, double exponent, const StageBits& bits, Quantiser& q) {
     h = 2.0 * q.coded_number(0.5 * h + 0.5, bits.half_vector) - 1.0;
     const double u = q.signed_number(h / abp_width(kWidth, exponent), bits.combiners);
     const double s = std::max(1.0 - q.product(u * u, bits.combiners), 0.0);
-    return q.unsigned_number(std::pow(q.unsigned_number(s, bits.table), exponent / 2.0),
+    return q.unsigned_number(dmath::pow(q.unsigned_number(s, bits.table), exponent / 2.0),
                              bits.frame);
 }
 

@@ -76,8 +76,8 @@ LoadedScene load_scene(const std::filesystem::path& path,
 /// A material file (TOML, `schema = 1`): one [material] and the [[textures]] that it names.
 Material load_material(const std::filesystem::path& path);
 
-/// An experiment (TOML, `schema = 1`; docs/experiments.md). Scenes are relative to the file and must
-/// be there. Unknown keys, axes and values are errors that name the nearest known one.
+/// An experiment (TOML, `schema = 1`; docs/experiments.md). Scenes are relative to the file and
+/// must be there. Unknown keys, axes and values are errors that name the nearest known one.
 Experiment load_experiment(const std::filesystem::path& path);
 
 /// A bare mesh file as a scene: framed camera, one light, brushed steel, profile `ideal`.
