@@ -58,11 +58,11 @@ class FragmentRuns {
     /// that lie below each other.
     template <class F, class G>
     void for_each_vector(F&& f, G&& g) const {
+        if constexpr (kLanes32 < kBlockSize) return for_each_vector(f);  // parts of rows
         constexpr int kFragments = kColumnVectors * kLanes32;
         for (int i = 0; i < m_end;) {
             const int run = m_run_of[i];
-            const bool is_column = kLanes32 >= kBlockSize && i + kFragments <= m_end &&
-                                   m_run_of[i + kFragments - 1] == run &&
+            const bool is_column = i + kFragments <= m_end && m_run_of[i + kFragments - 1] == run &&
                                    are_below_each_other(m_packet.pixels + i);
             if (!is_column) {
                 call(i, f);
