@@ -275,6 +275,8 @@ TEST(StageBits, SayWhatTheyCannotDraw) {
     scene.objects.front().raster.blend = Blend::alpha();
     EXPECT_NE(complaint(scene, {}).find("blended"), std::string::npos);
     scene.objects.front().raster.blend.reset();
+    scene.machine.filter_order = FilterOrder::after;
+    EXPECT_NE(complaint(scene, {}).find("expected before"), std::string::npos);
     scene.machine = machine_profile("double");
     EXPECT_NE(complaint(scene, {}).find("profile double"), std::string::npos);
 }

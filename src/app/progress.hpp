@@ -10,7 +10,8 @@
 
 namespace burnish::app {
 
-/// How far work is, on a terminal, once it takes longer than a second.
+/// How far work is and how long the rest will take, on a terminal, once it takes longer than a
+/// second.
 class Progress {
   public:
     explicit Progress(bool quiet) : m_shown(!quiet && isatty(STDERR_FILENO) != 0) {}
@@ -20,12 +21,16 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// @param count  at least 1
     void done(std::size_t count, std::size_t total) {
-        const auto time = std::chrono::steady_clock::now() - m_start;
-        if (!m_shown || total < 2 || time < std::chrono::seconds(1)) return;
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+        if (!m_shown || total < 2 || seconds < 1.0) return;
         constexpr std::size_t kWidth = 40;
-        fmt::print(stderr, "\r[{:<{}}] {}/{}", std::string(kWidth * count / total, '#'), kWidth,
-                   count, total);
+        const double left =
+            seconds * static_cast<double>(total - count) / static_cast<double>(count);
+        fmt::print(stderr, "\r[{:<{}}] {}/{}, {:.0f} s left\x1b[K",
+                   std::string(kWidth * count / total, '#'), kWidth, count, total, left);
         m_printed = true;
     }
 

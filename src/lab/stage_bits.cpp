@@ -210,6 +210,10 @@ BitRenderer::BitRenderer(const Scene& scene, int threads) {
         throw Error(ErrorCode::bad_option,
                     "chosen bits with profile double, which has no stages; expected one of the "
                     "machines");
+    if (scene.machine.filter_order == FilterOrder::after)
+        throw Error(ErrorCode::bad_option,
+                    "chosen bits with filter_order = after, expected before: stages that run at "
+                    "four texels have no bits of their own");
     m_state = std::make_unique<State>(scene, threads);
 }
 BitRenderer::~BitRenderer() = default;

@@ -9,9 +9,7 @@
 
 namespace burnish::lab {
 
-/// What the settings "bits.half_vector", "bits.textures", "bits.filter", "bits.combiners",
-/// "bits.table" and "bits.frame" say, each an integer or "exact", and "bits.rounding" = "nearest",
-/// "truncate", "shift8" or "stochastic"; nothing if there is none of them.
+/// What the settings "bits.KEY" say, of set_stage_bits' keys and values; nothing if there is none.
 /// Throws Error{bad_input} for anything else that begins with "bits.".
 std::optional<StageBits> bits_of(const std::vector<ExperimentSetting>& settings);
 

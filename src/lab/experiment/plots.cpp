@@ -1,33 +1,18 @@
 #include "lab/experiment/plots.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <burnish/files.hpp>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <map>
 
 #include "core/read_text.hpp"
+#include "lab/gnuplot.hpp"
 
 namespace burnish::lab {
 namespace {
-
-/// Text within gnuplot's double quotes, shown as it is.
-std::string plain(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return result;
-}
 
 /// Where the values of the x axis lie: at their numbers, or side by side with their names below.
 class HorizontalAxis {
@@ -46,8 +31,8 @@ class HorizontalAxis {
         if (m_axis.values.size() > kMostTicks && m_numeric) return "";
         std::string text;
         for (std::size_t i = 0; i < m_axis.values.size(); ++i)
-            text += fmt::format("{}\"{}\" {}", i == 0 ? "" : ", ", plain(m_axis.values[i].label),
-                                place(i));
+            text += fmt::format("{}\"{}\" {}", i == 0 ? "" : ", ",
+                                gnuplot_text(m_axis.values[i].label), place(i));
         return fmt::format("set xtics {}({})\n", m_numeric ? "" : "rotate by -25 ", text);
     }
     [[nodiscard]] bool numeric() const { return m_numeric; }
@@ -90,27 +75,6 @@ std::vector<std::pair<std::string, Curve>> curves_of(const Results& results,
     return curves;
 }
 
-/// Runs gnuplot on a script; a line about what went wrong, or nothing.
-std::string run_gnuplot(const std::filesystem::path& script) {
-    std::string name = "gnuplot", file = script.string();
-    std::array<char*, 3> arguments{name.data(), file.data(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-    pid_t child = 0;
-    const int failure =
-        posix_spawnp(&child, name.c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failure == ENOENT) return "no plots: gnuplot is not there (Debian package gnuplot-nox)";
-    if (failure != 0) return fmt::format("no plots: gnuplot: {}", std::strerror(failure));
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-    return fmt::format("no plots: gnuplot fails on {}", file);
-}
-
 }  // namespace
 
 std::optional<std::string> plot_script(const Results& results, const ExperimentPlot& plot,
@@ -123,8 +87,8 @@ std::optional<std::string> plot_script(const Results& results, const ExperimentP
         "set terminal svg size 620,400 noenhanced font \"sans,11\" background rgb \"white\"\n"
         "set output \"{}\"\nset title \"{}{}{}\"\nset xlabel \"{}\"\nset ylabel \"{}\"\n"
         "set grid\nset key outside right top\nset offsets graph 0.03, graph 0.03, 0, 0\n{}",
-        plain(output.string()), plain(plot.title), panel.empty() ? "" : ": ", plain(panel),
-        plain(plot.x), plain(plot.y), x.ticks());
+        gnuplot_text(output.string()), gnuplot_text(plot.title), panel.empty() ? "" : ": ",
+        gnuplot_text(panel), gnuplot_text(plot.x), gnuplot_text(plot.y), x.ticks());
     if (plot.log_x && x.numeric()) script += "set logscale x\n";
     if (plot.log_y) script += "set logscale y\nset format y \"%.0e\"\n";
     std::string drawn;
@@ -136,7 +100,7 @@ std::optional<std::string> plot_script(const Results& results, const ExperimentP
         drawn += fmt::format("{}$curve{} with linespoints {}", i == 0 ? "" : ", \\\n  ", i,
                              curves[i].first.empty()
                                  ? std::string("notitle")
-                                 : fmt::format("title \"{}\"", plain(curves[i].first)));
+                                 : fmt::format("title \"{}\"", gnuplot_text(curves[i].first)));
     }
     return script + "plot " + drawn + "\n";
 }
