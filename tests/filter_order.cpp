@@ -428,6 +428,22 @@ TEST(FilteredQuantities, ANamedNumberOfTheTexelIsFilteredApart) {
     }
 }
 
+// A number that is the same everywhere is a constant of the program, not of the vector beside it.
+TEST(FilteredQuantities, ANamedNumberThatIsTheSameEverywhereIsAConstant) {
+    auto material = ward_with(directions(kAlongU, kAlongV));
+    material->model = Model::text;
+    material->model_text = "P = 1 / alpha_x\nu = dot(h, t) * P\nks * max(0, 1 - u^2) * n_dot_l";
+    for (const float width : {0.25F, 1.0F}) {
+        material->alpha_x = width;
+        for (const LayerQuantity& q : material_layer(*material, machine_profile("ideal")))
+            if (q.name == "P") {
+                EXPECT_EQ(q.texture, nullptr);
+                EXPECT_NEAR(q.constant.x, 1.0 / static_cast<double>(width), 1e-6);
+            }
+        EXPECT_EQ(between(*material, "ideal", "t").z, 0.0);
+    }
+}
+
 TEST(FilteredQuantities, TheExponentOrItsLogarithm) {
     // Machines by themselves take the logarithm of N = 4 .. 32 and the number of 4 .. 9.
     auto material = ward_with(nullptr);

@@ -635,9 +635,10 @@ void parse_shard(const std::string& text, ExperimentOptions& options) {
 
 /// NAME|FILE or merge DIR...: the words are sorted out by `what_to_run`.
 void add_experiment(CLI::App& verb, ExperimentOptions& options, std::vector<std::string>& words) {
-    verb.add_option("NAME", words,
-                    "e1 .. e12, or an experiment's file; merge DIR...: join the shards in these "
-                    "directories")
+    verb.add_option(
+            "NAME", words,
+            "e1 .. e12, e7_edge, or an experiment's file; merge DIR...: join the shards in these "
+            "directories")
         ->required()
         ->type_name("");
     verb.add_option("-o,--output", options.output,

@@ -152,15 +152,11 @@ ExprPtr ExprBuilder::add(const ExprPtr& a, const ExprPtr& b) {
 }
 
 ExprPtr ExprBuilder::multiply(const ExprPtr& a, const ExprPtr& b) {
-    if (is_number(*a, 1.0)) return b;
-    if (is_number(*b, 1.0)) return a;
-    if (a->kind == ValueKind::scalar && b->kind == ValueKind::scalar &&
-        (is_number(*a, 0.0) || is_number(*b, 0.0)))
-        return number(0.0);
     // (g . Q) s = g . (Q s) for what is known at the texel: one quantity instead of a product. What
     // has a name is filtered as it is.
     const auto into_dot = [&](const ExprPtr& d, const ExprPtr& s) -> ExprPtr {
-        if (d->op != ExprOp::dot || !is_texel_scalar(*s) || s->op == ExprOp::quantity)
+        if (d->op != ExprOp::dot || !is_texel_scalar(*s) || s->op == ExprOp::quantity ||
+            is_number(*s, 0.0) || is_number(*s, 1.0))
             return nullptr;
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (d->args[i]->binding == Binding::pixel || d->args[1 - i]->op != ExprOp::geometry)
@@ -171,11 +167,20 @@ ExprPtr ExprBuilder::multiply(const ExprPtr& a, const ExprPtr& b) {
     };
     if (ExprPtr inside = into_dot(a, b)) return inside;
     if (ExprPtr inside = into_dot(b, a)) return inside;
+    return product(a, b);
+}
+
+ExprPtr ExprBuilder::product(const ExprPtr& a, const ExprPtr& b) {
+    if (is_number(*a, 1.0)) return b;
+    if (is_number(*b, 1.0)) return a;
+    if (a->kind == ValueKind::scalar && b->kind == ValueKind::scalar &&
+        (is_number(*a, 0.0) || is_number(*b, 0.0)))
+        return number(0.0);
     // Constants first, so that they meet.
-    if (b->binding == Binding::constant && a->binding != Binding::constant) return multiply(b, a);
+    if (b->binding == Binding::constant && a->binding != Binding::constant) return product(b, a);
     if (a->binding == Binding::constant && a->kind == ValueKind::scalar &&
         b->op == ExprOp::multiply && b->args[0]->binding == Binding::constant)
-        return multiply(multiply(a, b->args[0]), b->args[1]);
+        return product(product(a, b->args[0]), b->args[1]);
     return node(ExprOp::multiply, wider(a->kind, b->kind), {a, b});
 }
 

@@ -76,6 +76,8 @@ class ExprBuilder {
     ExprPtr quantity(std::string name, const ExprPtr& value);
     ExprPtr add(const ExprPtr& a, const ExprPtr& b);
     ExprPtr multiply(const ExprPtr& a, const ExprPtr& b);
+    /// The same, but the vectors of dot products stay as they are: once quantities have been named.
+    ExprPtr product(const ExprPtr& a, const ExprPtr& b);
     ExprPtr divide(const ExprPtr& a, const ExprPtr& b);
     ExprPtr negate(const ExprPtr& a);
     ExprPtr dot(const ExprPtr& a, const ExprPtr& b);

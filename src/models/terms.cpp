@@ -35,7 +35,7 @@ class Rebuild {
             case ExprOp::add:
                 return m_builder.add(args[0], args[1]);
             case ExprOp::multiply:
-                return m_builder.multiply(args[0], args[1]);
+                return m_builder.product(args[0], args[1]);
             case ExprOp::divide:
                 return m_builder.divide(args[0], args[1]);
             case ExprOp::dot:

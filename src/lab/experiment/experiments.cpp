@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "e01.toml" -> "e1"; nothing for what is no experiment.
+/// "e01.toml" -> "e1", "e07_edge.toml" -> "e7_edge"; nothing for what is no experiment.
 std::string name_of(std::string_view path) {
     if (!path.ends_with(".toml") || path.find('/') != std::string_view::npos) return "";
     std::string name(path.substr(0, path.size() - 5));
-    if (name.size() == 3 && name[1] == '0') name.erase(1, 1);
+    if (name.size() >= 3 && name[1] == '0') name.erase(1, 1);
     return name;
 }
 
