@@ -97,8 +97,11 @@ class Runner {
         try {
             return load_picture(experiment().scenes[picture.scene], picture);
         } catch (const Error& error) {
-            throw Error(error.code(), fmt::format("{} (cell {} of {})", error.what(),
-                                                  m_results.cells[cell].name, experiment().name));
+            // An option that a file sets is the file's mistake, not the command line's.
+            const bool is_option = error.code() == ErrorCode::bad_option;
+            throw Error(is_option ? ErrorCode::bad_input : error.code(),
+                        fmt::format("{} (cell {} of {})", error.what(), m_results.cells[cell].name,
+                                    experiment().name));
         }
     }
 
