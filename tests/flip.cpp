@@ -34,6 +34,13 @@ double at_centre(const Framebuffer& test, const Framebuffer& reference,
     return map.row(map.height / 2)[map.width / 2];
 }
 
+// IEC 61966-2-1: a straight line up to 0.04045, where 0.04 is 0.04 / 12.92, a power beyond it.
+TEST(FlipColor, SrgbIsALineAndAPower) {
+    EXPECT_NEAR(srgb_to_linear(0.04), 0.00309598, 1e-8);
+    EXPECT_NEAR(srgb_to_linear(0.5), 0.21404114, 1e-8);
+    EXPECT_EQ(srgb_to_linear(1.0), 1.0);
+}
+
 // github.com/NVlabs/flip, FLIP.h: a screen 0.7 m wide of 3840 pixels seen from 0.7 m, "67ppd" in
 // its file names. HPG 2020, section 4.1.1: radius of the contrast filters 3 sqrt(0.04 / (2 pi^2))
 // pixels per degree, whole; section 4.2: 3 * 0.5 * 0.082 pixels per degree.
