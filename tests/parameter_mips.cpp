@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <burnish/error.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 
 #include "models/mips/slope_lobe.hpp"
 #include "models/mips/texel_moments.hpp"
@@ -360,6 +362,18 @@ TEST(MomentStorage, ErrorsFallWithBits) {
     EXPECT_GT(error(8), 0.01);
     EXPECT_LT(error(16), 0.002);
     EXPECT_LT(error(32), 1e-7);
+}
+
+TEST(ParameterMips, OfMoreThanTwoGigabytesAreRefusedBeforeATexelIsRead) {
+    const Material material;
+    const auto unread = [](int, int) -> TexelParameters { throw std::logic_error("read"); };
+    try {
+        parameter_mips(unread, 16384, 16384, LobeShape(material), {MipMethod::moments});
+        FAIL() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::limit);
+    }
+    EXPECT_NO_THROW(require_room(4096, 4096));
 }
 
 }  // namespace

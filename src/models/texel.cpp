@@ -127,6 +127,7 @@ void TexelSource::make_mips() {
 
 std::vector<mips::ParameterGrid> TexelSource::mips_of_maps() const {
     std::vector<mips::ParameterGrid> mips;
+    mips::require_room(m_width, m_height);
     for (std::size_t k = 1; k < m_map_levels.size(); ++k) {
         const MapLevel level{static_cast<int>(k), m_map_levels[k].width, m_map_levels[k].height};
         mips::ParameterGrid& grid = mips.emplace_back();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <burnish/files.hpp>
-#include <cerrno>
 #include <cmath>
 #include <map>
 

@@ -1,6 +1,10 @@
 #include "models/mips/parameter_mips.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <burnish/error.hpp>
+#include <cstddef>
 
 #include "core/covered.hpp"
 #include "models/mips/filtered_texel.hpp"
@@ -44,11 +48,23 @@ MomentGrid next_level(int width, int height, MipMethod method, const MomentStora
 
 }  // namespace
 
+void require_room(int width, int height) {
+    constexpr std::size_t kMost = std::size_t{2} << 30;
+    const std::size_t texels =
+        static_cast<std::size_t>(width / 2) * static_cast<std::size_t>(height / 2);
+    if (texels * (sizeof(TexelMoments) + sizeof(TexelParameters)) <= kMost) return;
+    throw Error(ErrorCode::limit,
+                fmt::format("mip levels of a material of {} x {} texels take more than 2 GiB, "
+                            "expected smaller maps or no 'mipmaps' of the material",
+                            width, height));
+}
+
 std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, int height,
                                           const LobeShape& shape, const MaterialMipmaps& mipmaps) {
     std::vector<ParameterGrid> levels;
     const MipMethod method = mipmaps.method;
     if (method == MipMethod::none || (width == 1 && height == 1)) return levels;
+    require_room(width, height);
     MomentStorage storage(mipmaps.bits);
     const auto moments_at = [&](int x, int y) { return moments_of(level0(x, y), shape, method); };
     for (int y = 0; y < height && !storage.is_exact(); ++y) {
