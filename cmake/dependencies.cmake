@@ -32,3 +32,18 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
   IMPORTED_LOCATION ${OPENIMAGEIO_LIBRARY}
   INTERFACE_INCLUDE_DIRECTORIES ${OPENIMAGEIO_INCLUDE_DIR}
   INTERFACE_LINK_LIBRARIES ${OPENIMAGEIO_UTIL_LIBRARY})
+
+# Dear ImGui comes as a static library without a CMake package; its headers include each other
+# without their directory.
+if(BURNISH_VIEW)
+  find_package(SDL2 REQUIRED CONFIG)
+  find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+  find_library(IMGUI_LIBRARY imgui REQUIRED)
+  find_library(STB_LIBRARY stb REQUIRED)
+  find_library(FREETYPE_LIBRARY freetype REQUIRED)
+  mark_as_advanced(IMGUI_INCLUDE_DIR IMGUI_LIBRARY STB_LIBRARY FREETYPE_LIBRARY)
+  add_library(burnish_imgui INTERFACE)
+  target_include_directories(burnish_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR})
+  target_link_libraries(burnish_imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY}
+                                                ${FREETYPE_LIBRARY} SDL2::SDL2)
+endif()

@@ -216,10 +216,11 @@ void add_camera_options(CLI::App& verb, CameraOptions& camera) {
         ->type_name("FACTOR");
 }
 
-void add_picture_options(CLI::App& verb, PictureOptions& picture) {
-    verb.add_option("INPUT", picture.input, "Scene (.toml) or mesh (.obj .ply .off .stl)")
-        ->required()
-        ->type_name("");
+CLI::Option* add_picture_options(CLI::App& verb, PictureOptions& picture) {
+    CLI::Option* input =
+        verb.add_option("INPUT", picture.input, "Scene (.toml) or mesh (.obj .ply .off .stl)")
+            ->required()
+            ->type_name("");
     verb.add_option_function<std::string>(
             "--size", [&picture](const std::string& text) { picture.size = parse_size(text); },
             "Size of the picture in pixels")
@@ -290,6 +291,7 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
     CLI::Option* quiet = verb.add_flag("--quiet", picture.quiet, "Print errors only");
     verb.add_flag("-v,--verbose", picture.verbose, "Print what was loaded and drawn")
         ->excludes(quiet);
+    return input;
 }
 
 void add_render(CLI::App& verb, RenderOptions& options) {
@@ -315,6 +317,15 @@ void add_render(CLI::App& verb, RenderOptions& options) {
             "Print counts and times of the frame: text or json")
         ->type_name("FORMAT");
     add_aov(verb, options.shown);
+}
+
+void add_view(CLI::App& verb, ViewOptions& options) {
+    add_picture_options(verb, options.picture)->required(false);
+    verb.add_option("--load-state", options.load_state,
+                    "A state that was saved, or a screenshot: its input, looked at in the same way")
+        ->type_name("FILE");
+    verb.add_option("--save-state", options.save_state, "Written when the window closes")
+        ->type_name("FILE");
 }
 
 void add_trace(CLI::App& verb, TraceOptions& options) {
@@ -660,6 +671,7 @@ void add_experiment(CLI::App& verb, ExperimentOptions& options, std::vector<std:
 struct Parser {
     CLI::App app{"burnish renders meshes through an emulated register-combiner machine", "burnish"};
     RenderOptions render;
+    ViewOptions view;
     TraceOptions trace;
     BenchOptions bench;
     CompareOptions compare;
@@ -674,6 +686,7 @@ struct Parser {
     ExperimentOptions experiment;
     std::vector<std::string> experiment_words;
     CLI::App* render_verb = app.add_subcommand("render", "A scene or mesh file to an image");
+    CLI::App* view_verb = app.add_subcommand("view", "A scene or mesh file in a window");
     CLI::App* trace_verb = app.add_subcommand(
         "trace", "Every register after every stage at one pixel, or the picture's error by stage");
     CLI::App* bake_verb = app.add_subcommand("bake", "Material maps and test meshes as files");
@@ -700,6 +713,7 @@ struct Parser {
         app.set_version_flag("--version", "burnish " BURNISH_VERSION);
         bake_verb->require_subcommand(1);
         add_render(*render_verb, render);
+        add_view(*view_verb, view);
         add_trace(*trace_verb, trace);
         add_bench(*bench_verb, bench);
         add_compare(*compare_verb, compare);
@@ -744,6 +758,7 @@ struct Parser {
 
     Command chosen() const {
         if (render_verb->parsed()) return render;
+        if (view_verb->parsed()) return view;
         if (trace_verb->parsed()) {
             if (!trace.pixel && !trace.by_stage) fail("trace: expected --pixel X,Y or --by-stage");
             return trace;

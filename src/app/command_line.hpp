@@ -59,6 +59,12 @@ struct RenderOptions {
     std::optional<Shown> shown;  ///< --aov
 };
 
+struct ViewOptions {
+    PictureOptions picture;            ///< its input is empty with `load_state`
+    std::filesystem::path load_state;  ///< a state or a screenshot; empty: none
+    std::filesystem::path save_state;  ///< when the window closes; empty: nowhere
+};
+
 struct TraceOptions {
     PictureOptions picture;
     std::optional<glm::ivec2> pixel;  ///< not negative; there is one unless by_stage
@@ -168,7 +174,7 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, TraceOptions, BenchOptions, CompareOptions,
+using Command = std::variant<PrintText, RenderOptions, ViewOptions, TraceOptions, BenchOptions, CompareOptions,
                              CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
                              BakeMaterialOptions, BakeMipsOptions, BakeAnisotropyOptions,
                              BakeMeshOptions, ExperimentOptions>;

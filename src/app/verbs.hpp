@@ -29,6 +29,7 @@ struct CheckFailed : std::exception {
 
 void run(const PrintText& text);
 void run(const RenderOptions& options);
+void run(const ViewOptions& options);
 void run(const TraceOptions& options);
 void run(const BenchOptions& options);
 void run(const CompareOptions& options);

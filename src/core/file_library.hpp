@@ -11,13 +11,16 @@ struct FileLibrary {
     LoadedMesh (*load_mesh)(const std::filesystem::path&);
     Image8 (*load_image)(const std::filesystem::path&);
     Framebuffer (*load_frame)(const std::filesystem::path&);
-    void (*save_frame)(const Framebuffer&, const std::filesystem::path&);
+    void (*save_frame)(const Framebuffer&, const std::filesystem::path&,
+                       std::string_view description);
     void (*save_image)(const Image8&, const std::filesystem::path&);
     void (*save_text)(std::string_view, const std::filesystem::path&);
     void (*save_mesh)(const MeshData&, const std::filesystem::path&);
     LoadedScene (*load_scene)(const std::filesystem::path&, const std::vector<std::string>&);
     Material (*load_material)(const std::filesystem::path&);
     Experiment (*load_experiment)(const std::filesystem::path&);
+    std::vector<std::filesystem::path> (*input_files)(const std::filesystem::path&);
+    ViewState (*load_view_state)(const std::filesystem::path&);
     LoadedScene (*scene_for_mesh)(const std::filesystem::path&);
 };
 

@@ -56,7 +56,12 @@ Framebuffer load_frame(const std::filesystem::path& path) {
 }
 
 void save_image(const Framebuffer& frame, const std::filesystem::path& path) {
-    library().save_frame(frame, path);
+    library().save_frame(frame, path, {});
+}
+
+void save_image(const Framebuffer& frame, const std::filesystem::path& path,
+                std::string_view description) {
+    library().save_frame(frame, path, description);
 }
 
 void save_image(const Image8& image, const std::filesystem::path& path) {
@@ -82,6 +87,14 @@ Material load_material(const std::filesystem::path& path) {
 
 Experiment load_experiment(const std::filesystem::path& path) {
     return library().load_experiment(path);
+}
+
+std::vector<std::filesystem::path> input_files(const std::filesystem::path& path) {
+    return library().input_files(path);
+}
+
+ViewState load_view_state(const std::filesystem::path& path) {
+    return library().load_view_state(path);
 }
 
 LoadedScene scene_for_mesh(const std::filesystem::path& path) {

@@ -2,8 +2,10 @@
 #include "io/atomic_file.hpp"
 #include "io/experiment_io.hpp"
 #include "io/image_io.hpp"
+#include "io/input_files.hpp"
 #include "io/read_mesh.hpp"
 #include "io/scene_io.hpp"
+#include "io/view_state_io.hpp"
 #include "io/write_mesh.hpp"
 
 /// What burnish looks up when a file is first needed.
@@ -19,6 +21,8 @@ extern "C" const burnish::FileLibrary* burnish_file_library() {
         .load_scene = burnish::read_scene_file,
         .load_material = burnish::read_material_file,
         .load_experiment = burnish::read_experiment_file,
+        .input_files = burnish::find_input_files,
+        .load_view_state = burnish::read_view_state_file,
         .scene_for_mesh = burnish::scene_for_mesh_file,
     };
     return &kLibrary;

@@ -241,8 +241,20 @@ Framebuffer read_frame_file(const std::filesystem::path& path) {
     return std::move(*frame);
 }
 
-void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path) {
-    write_source(describe(frame), path);
+std::string read_description(const std::filesystem::path& path) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+    if (!input) {
+        OIIO::geterror();
+        return {};
+    }
+    return input->spec().get_string_attribute("ImageDescription");
+}
+
+void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path,
+                      std::string_view description) {
+    Source source = describe(frame);
+    if (!description.empty()) source.spec.attribute("ImageDescription", std::string(description));
+    write_source(source, path);
 }
 
 void write_image_file(const Image8& image, const std::filesystem::path& path) {

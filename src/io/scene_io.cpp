@@ -134,24 +134,14 @@ void read_machine(const toml::table& table, Scene& scene) {
     scene.machine = std::move(machine);
 }
 
-void read_camera(const toml::table& table, Scene& scene) {
+void read_scene_camera(const toml::table& table, Scene& scene) {
     const Section section(
         table, "[camera]",
         {"position", "focal_point", "view_up", "view_angle", "near", "far", "view", "projection"});
-    constexpr Range kAngle{.low = 0.0, .high = 179.9, .open_low = true};
-    Camera& camera = scene.camera;
-    camera.position = section.vec3("position").value_or(camera.position);
-    camera.focal_point = section.vec3("focal_point").value_or(camera.focal_point);
-    camera.view_up = section.vec3("view_up").value_or(camera.view_up);
-    camera.view_angle = section.number("view_angle", kAngle).value_or(camera.view_angle);
-    camera.near = section.number("near", kPositive).value_or(camera.near);
-    camera.far = section.number("far", kPositive).value_or(camera.far);
-    camera.view = section.mat4("view");
-    camera.projection = section.mat4("projection");
-    if (!(camera.far > camera.near))
-        section.fail("far", fmt::format("'far' = {} in [camera], expected more than near = {}",
-                                        camera.far, camera.near));
-    if (!camera.view && camera.position == camera.focal_point)
+    scene.camera = read_camera(section);
+    scene.camera.view = section.mat4("view");
+    scene.camera.projection = section.mat4("projection");
+    if (!scene.camera.view && scene.camera.position == scene.camera.focal_point)
         section.fail("position", "'position' in [camera] is the focal point, expected two points");
 }
 
@@ -179,7 +169,7 @@ LoadedScene interpret(const toml::table& table, const std::filesystem::path& dir
     Scene& scene = loaded.scene;
     if (const toml::table* output = root.table("output")) read_output(*output, scene);
     if (const toml::table* machine = root.table("machine")) read_machine(*machine, scene);
-    if (const toml::table* camera = root.table("camera")) read_camera(*camera, scene);
+    if (const toml::table* camera = root.table("camera")) read_scene_camera(*camera, scene);
     for (const toml::table* light : root.tables("lights"))
         scene.lights.push_back(read_light(*light));
     scene.ambient = root.vec3("ambient", kNotNegative).value_or(scene.ambient);
@@ -190,6 +180,21 @@ LoadedScene interpret(const toml::table& table, const std::filesystem::path& dir
 }
 
 }  // namespace
+
+Camera read_camera(const Section& section) {
+    constexpr Range kAngle{.low = 0.0, .high = 179.9, .open_low = true};
+    Camera camera;
+    camera.position = section.vec3("position").value_or(camera.position);
+    camera.focal_point = section.vec3("focal_point").value_or(camera.focal_point);
+    camera.view_up = section.vec3("view_up").value_or(camera.view_up);
+    camera.view_angle = section.number("view_angle", kAngle).value_or(camera.view_angle);
+    camera.near = section.number("near", kPositive).value_or(camera.near);
+    camera.far = section.number("far", kPositive).value_or(camera.far);
+    if (!(camera.far > camera.near))
+        section.fail("far", fmt::format("'far' = {} in [camera], expected more than near = {}",
+                                        camera.far, camera.near));
+    return camera;
+}
 
 void require_schema(const Section& root) {
     if (!root.has("schema")) root.fail("schema", "no 'schema' key, expected schema = 1");

@@ -86,6 +86,11 @@ ProgramMaterial vertex_color_program(std::vector<TexturePtr> units);
 /// Throws Error{bad_input} unless `schema` is the one that this version reads.
 void require_schema(const Section& root);
 
+/// A camera's vectors, angle and depths.
+Camera read_camera(const Section& section);
+inline constexpr std::array<std::string_view, 6> kCameraVectors{
+    "position", "focal_point", "view_up", "view_angle", "near", "far"};
+
 /// Reads every [[objects]] table in order. Lines about meshes go to `notes`.
 std::vector<Object> read_objects(const Section& root, const MaterialTable& materials,
                                  const std::filesystem::path& directory,

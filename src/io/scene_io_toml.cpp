@@ -135,17 +135,19 @@ void apply(toml::table& root, Override change) {
 
 }  // namespace
 
-toml::table parse_scene(const std::filesystem::path& path,
-                        const std::vector<std::string>& overrides) {
-    const std::string text = read_text(path);
-    toml::table root;
+toml::table parse_scene_text(std::string_view text, const std::filesystem::path& path) {
     try {
-        root = toml::parse(text, std::string_view(path.native()));
+        return toml::parse(text, std::string_view(path.native()));
     } catch (const toml::parse_error& error) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}:{}: {}", path.string(), error.source().begin.line,
                                 one_line(std::string(error.description()))));
     }
+}
+
+toml::table parse_scene(const std::filesystem::path& path,
+                        const std::vector<std::string>& overrides) {
+    toml::table root = parse_scene_text(read_text(path), path);
     for (const std::string& each : overrides) apply(root, parse_override(each));
     return root;
 }

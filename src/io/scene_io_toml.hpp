@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace burnish {
@@ -16,5 +17,8 @@ namespace burnish {
 /// a syntax error, Error{bad_option} for an override that leads nowhere.
 toml::table parse_scene(const std::filesystem::path& path,
                         const std::vector<std::string>& overrides);
+
+/// A text that stands in the file `path` in some other way.
+toml::table parse_scene_text(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace burnish

@@ -5,6 +5,7 @@
 #include <burnish/mesh.hpp>
 #include <burnish/scene.hpp>
 #include <burnish/texture.hpp>
+#include <burnish/view_state.hpp>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -57,6 +58,10 @@ Framebuffer load_frame(const std::filesystem::path& path);
 void save_image(const Framebuffer& frame, const std::filesystem::path& path);
 void save_image(const Image8& image, const std::filesystem::path& path);
 
+/// The same with a text in the file, where the format has a place for one: "Description" of PNG.
+void save_image(const Framebuffer& frame, const std::filesystem::path& path,
+                std::string_view description);
+
 /// Text as it is; "-" is no special name.
 void save_text(std::string_view text, const std::filesystem::path& path);
 
@@ -79,6 +84,14 @@ Material load_material(const std::filesystem::path& path);
 /// An experiment (TOML, `schema = 1`; docs/experiments.md). Scenes are relative to the file and
 /// must be there. Unknown keys, axes and values are errors that name the nearest known one.
 Experiment load_experiment(const std::filesystem::path& path);
+
+/// The file and, if it is TOML, the files that it names, and those that these name: what a change
+/// of a picture may come from. Throws Error for TOML that cannot be parsed.
+std::vector<std::filesystem::path> input_files(const std::filesystem::path& path);
+
+/// A state that `burnish view` saved: TOML, or a PNG file with that text as its description.
+/// Names of files in it are relative to its directory.
+ViewState load_view_state(const std::filesystem::path& path);
 
 /// A bare mesh file as a scene: framed camera, one light, brushed steel, profile `ideal`.
 LoadedScene scene_for_mesh(const std::filesystem::path& path);

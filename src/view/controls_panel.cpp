@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <burnish/materials.hpp>
+
+#include "view/panels.hpp"
+
+namespace burnish::view {
+namespace {
+
+constexpr const char* kAsScene = "as the scene";
+
+std::vector<std::string_view> available_isas() {
+    std::vector<std::string_view> names;
+    for (const IsaInfo& isa : instruction_sets())
+        if (isa.available) names.push_back(isa.name);
+    return names;
+}
+
+void file_controls(const Session& session, const Picture* picture) {
+    ImGui::TextUnformatted(session.state.input.filename().string().c_str());
+    if (picture == nullptr) return;
+    std::string panes;
+    for (const PaneReport& pane : picture->panes)
+        panes += fmt::format("{} {:.1f} ms{}{}\n", pane.machine, pane.ms,
+                             pane.divisor > 1 ? fmt::format(", 1/{}", pane.divisor) : "",
+                             pane.samples > 1 ? fmt::format(", {} samples", pane.samples) : "");
+    ImGui::TextUnformatted(panes.c_str());
+}
+
+void machine_controls(Session& session) {
+    ViewState& state = session.state;
+    choose_word("machine", machine_profile_names(), kAsScene, state.machine);
+
+    std::string half_vector = state.half_vector.value_or("");
+    if (choose_word("half vector", {"pixel", "vertex", "cube:64"}, kAsScene, half_vector)) {
+        state.half_vector.reset();
+        if (!half_vector.empty()) state.half_vector = half_vector;
+    }
+    std::string order;
+    if (state.filter_order) order = *state.filter_order == FilterOrder::before ? "before" : "after";
+    if (choose_word("filter order", {"before", "after"}, kAsScene, order)) {
+        state.filter_order.reset();
+        if (!order.empty()) state.filter_order = filter_order_of(order);
+    }
+    std::string method;
+    if (state.mipmaps) method = mip_method_names()[static_cast<std::size_t>(state.mipmaps->method)];
+    if (choose_word("mip levels", mip_method_names(), kAsScene, method)) {
+        state.mipmaps.reset();
+        if (!method.empty()) state.mipmaps.emplace().method = *mip_method_named(method);
+    }
+    ImGui::Checkbox("split", &state.split);
+    ImGui::SameLine();
+    ImGui::Checkbox("error", &state.heat_map);
+    if (state.heat_map)
+        ImGui::SliderFloat("gain", &state.gain, 1.0F, 100.0F, "%.1f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+}
+
+void worker_controls(Session& session) {
+    ImGui::SliderInt("threads", &session.renderer.threads, 0, 16,
+                     session.renderer.threads == 0 ? "all" : "%d", ImGuiSliderFlags_AlwaysClamp);
+    choose_word("isa", available_isas(), "best", session.renderer.isa);
+}
+
+}  // namespace
+
+bool choose_word(const char* label, const std::vector<std::string_view>& words,
+                 const std::string& none, std::string& chosen) {
+    bool changed = false;
+    if (!ImGui::BeginCombo(label, chosen.empty() ? none.c_str() : chosen.c_str())) return false;
+    const auto offer = [&](const std::string& shown, const std::string& value) {
+        if (!ImGui::Selectable(shown.c_str(), chosen == value)) return;
+        changed = chosen != value;
+        chosen = value;
+    };
+    if (!none.empty()) offer(none, "");
+    for (const std::string_view word : words) offer(std::string(word), std::string(word));
+    ImGui::EndCombo();
+    return changed;
+}
+
+void controls_panel(Session& session, const Picture* picture) {
+    ImGui::SetNextWindowPos(ImVec2(8.0F, 8.0F), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(270.0F, 0.0F), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("burnish")) {
+        ImGui::PushItemWidth(150.0F);
+        file_controls(session, picture);
+        machine_controls(session);
+        worker_controls(session);
+        ImGui::Separator();
+        material_controls(session);
+        ImGui::Separator();
+        ImGui::TextUnformatted("H: all keys");
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
+}
+
+}  // namespace burnish::view

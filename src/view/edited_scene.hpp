@@ -1,0 +1,47 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <burnish/view_state.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// From what was loaded and what was changed since to what is drawn.
+namespace burnish::view {
+
+/// A line of an edited program that is wrong.
+struct ProgramError {
+    std::string material;
+    std::size_t line = 1, column = 1;
+    std::string message;
+};
+
+/// Keeps materials that did not change, so that what the renderer prepared of them stays of use.
+class EditedMaterials {
+  public:
+    /// Puts the state's materials in place of the scene's. What is wrong with a program leaves the
+    /// last right one in place and goes to `errors`.
+    void apply(const ViewState& state, Scene& scene, std::vector<ProgramError>& errors);
+    void forget() { m_kept.clear(); }
+
+  private:
+    struct Kept {
+        std::string edit;  ///< as text
+        std::shared_ptr<const Material> material;
+    };
+    std::map<const Material*, Kept> m_kept;  ///< by the loaded one
+};
+
+/// What is drawn: camera, light, materials and machine of the state in a copy of `loaded`, at the
+/// state's size. Throws Error{bad_option} for a machine that cannot be.
+Scene edited_scene(const Scene& loaded, const ViewState& state, EditedMaterials& materials,
+                   std::vector<ProgramError>& errors);
+
+/// The machine with the state's other wishes: passes where a program needs them.
+Machine machine_for(const ViewState& state, const Machine& machine);
+
+/// What the scene itself shows, as a state.
+ViewState state_of(const Scene& scene, const std::filesystem::path& input);
+
+}  // namespace burnish::view

@@ -1,0 +1,148 @@
+#include "view/orbit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace burnish::view {
+namespace {
+
+constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
+
+struct Axes {
+    glm::vec3 right, up, back;
+};
+
+/// Some unit vector at right angles to `v`.
+glm::vec3 any_perpendicular(const glm::vec3& v) {
+    const glm::vec3 other = std::abs(v.y) < 0.9F * glm::length(v) ? glm::vec3(0.0F, 1.0F, 0.0F)
+                                                                  : glm::vec3(1.0F, 0.0F, 0.0F);
+    return glm::normalize(glm::cross(other, v));
+}
+
+Axes axes_of(const Camera& camera) {
+    const glm::vec3 back = glm::normalize(camera.position - camera.focal_point);
+    const glm::vec3 side = glm::cross(camera.view_up, back);
+    const float length = glm::length(side);
+    const glm::vec3 right = length > 1e-6F ? side / length : any_perpendicular(back);
+    return {right, glm::cross(back, right), back};
+}
+
+glm::vec3 rotated(const glm::vec3& v, const glm::vec3& axis, float degrees) {
+    return glm::mat3(placement(glm::vec3(0.0F), axis, degrees, 1.0F)) * v;
+}
+
+void grow(Bounds& box, const glm::vec3& point) {
+    box.low = glm::min(box.low, point);
+    box.high = glm::max(box.high, point);
+}
+
+/// The corners of a mesh's box, in world space.
+void grow(Bounds& box, const Bounds& mesh, const glm::mat4& world_from_object) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) != 0 ? mesh.high.x : mesh.low.x,
+                           (corner & 2) != 0 ? mesh.high.y : mesh.low.y,
+                           (corner & 4) != 0 ? mesh.high.z : mesh.low.z);
+        grow(box, glm::vec3(world_from_object * glm::vec4(at, 1.0F)));
+    }
+}
+
+}  // namespace
+
+Ball ball_around(const Scene& scene) {
+    constexpr float kNone = std::numeric_limits<float>::max();
+    Bounds box{glm::vec3(kNone), glm::vec3(-kNone)};
+    for (const Object& object : scene.objects) {
+        if (const Mesh* mesh = std::get_if<Mesh>(&object.geometry)) {
+            const Bounds bounds = mesh->bounds();
+            if (glm::all(glm::lessThanEqual(bounds.low, bounds.high)))
+                grow(box, bounds, object.world_from_object);
+        } else if (const auto& raw = std::get<RawVertices>(object.geometry);
+                   raw.space == Space::object) {
+            for (const RawVertex& vertex : raw.vertices)
+                grow(box, glm::vec3(object.world_from_object *
+                                    glm::vec4(glm::vec3(vertex.position), 1)));
+        }
+    }
+    const float radius = 0.5F * glm::length(box.high - box.low);
+    if (!std::isfinite(radius) || box.low.x > box.high.x) return {};
+    return {0.5F * (box.low + box.high), std::max(radius, 1e-6F)};
+}
+
+Camera by_vectors(const Camera& camera, const Ball& ball) {
+    Camera result = camera;
+    if (camera.view) {
+        const glm::mat4 world_from_eye = glm::inverse(*camera.view);
+        const glm::vec3 back = glm::normalize(glm::vec3(world_from_eye[2]));
+        result.position = glm::vec3(world_from_eye[3]);
+        result.view_up = glm::normalize(glm::vec3(world_from_eye[1]));
+        const float ahead = glm::dot(result.position - ball.centre, back);
+        result.focal_point = result.position - back * std::max(ahead, 0.1F * ball.radius);
+        result.view.reset();
+    }
+    if (camera.projection) {
+        const float focal = std::abs((*camera.projection)[1][1]);
+        if (focal > 0.0F)
+            result.view_angle = std::clamp(2.0F * std::atan(1.0F / focal) / kDegree, 1.0F, 170.0F);
+        result.projection.reset();
+    }
+    return result;
+}
+
+Camera orbited(Camera camera, float azimuth, float elevation) {
+    const glm::vec3 up = glm::normalize(camera.view_up);
+    glm::vec3 arm = rotated(camera.position - camera.focal_point, up, -azimuth);
+    const float sine = glm::dot(glm::normalize(arm), up);
+    const float height = std::asin(std::clamp(sine, -1.0F, 1.0F)) / kDegree;
+    const float higher = std::clamp(height + elevation, -89.0F, 89.0F) - height;
+    const glm::vec3 side = glm::cross(up, arm);
+    if (glm::length(side) > 1e-6F * glm::length(arm)) arm = rotated(arm, side, -higher);
+    camera.position = camera.focal_point + arm;
+    return camera;
+}
+
+Camera panned(Camera camera, float right, float down) {
+    const Axes axes = axes_of(camera);
+    const float distance = glm::length(camera.position - camera.focal_point);
+    const float height = 2.0F * distance * std::tan(0.5F * camera.view_angle * kDegree);
+    const glm::vec3 move = height * (down * axes.up - right * axes.right);
+    camera.position += move;
+    camera.focal_point += move;
+    return camera;
+}
+
+Camera zoomed(Camera camera, float factor, const Ball& ball) {
+    const glm::vec3 arm = camera.position - camera.focal_point;
+    const float length = glm::length(arm);
+    const float wanted = std::clamp(length / factor, 1e-3F * ball.radius, 1e3F * ball.radius);
+    camera.position = camera.focal_point + arm * (wanted / length);
+    return camera;
+}
+
+Camera seen_from(Side side, const Camera& camera, const Ball& ball, float aspect) {
+    constexpr glm::vec3 kFrom[] = {
+        {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {1.0F, 1.0F, 1.0F}};
+    Camera result = camera;
+    const float half_height = 0.5F * camera.view_angle * kDegree;
+    const float half = aspect < 1.0F ? std::atan(std::tan(half_height) * aspect) : half_height;
+    const glm::vec3 from = glm::normalize(kFrom[static_cast<int>(side)]);
+    result.focal_point = ball.centre;
+    result.position = ball.centre + from * (ball.radius / std::sin(half));
+    result.view_up = side == Side::top ? glm::vec3(0.0F, 0.0F, -1.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
+    return result;
+}
+
+Camera with_depths(Camera camera, const Ball& ball) {
+    const float distance = glm::length(camera.position - ball.centre);
+    const float nearest = std::max(distance - 1.1F * ball.radius, 1e-3F * ball.radius);
+    camera.near = std::min(camera.near, nearest);
+    camera.far = std::max(camera.far, distance + 1.1F * ball.radius);
+    return camera;
+}
+
+glm::vec3 turned_light(const glm::vec3& towards, const Camera& camera, float right, float down) {
+    const Axes axes = axes_of(camera);
+    return rotated(rotated(towards, axes.up, right), axes.right, down);
+}
+
+}  // namespace burnish::view

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace burnish::view {
+
+/// How large a picture fits into the time for a frame, from how long the last ones took.
+class Pace {
+  public:
+    /// Milliseconds that a picture may take while things move.
+    explicit Pace(double budget_ms) : m_budget_ms(budget_ms) {}
+
+    /// `machine` took `ms` for so many pixels.
+    void took(const std::string& machine, double pixels, double ms);
+    /// What a frame of `pixels` is divided by, in width and height: 1 .. 16. `shares`: how many
+    /// pictures have to fit into the budget.
+    [[nodiscard]] int divisor(const std::string& machine, double pixels, int shares) const;
+
+  private:
+    double m_budget_ms;
+    std::map<std::string, double> m_ns_per_pixel;
+};
+
+}  // namespace burnish::view

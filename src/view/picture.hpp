@@ -1,0 +1,89 @@
+#pragma once
+
+#include <burnish/renderer.hpp>
+#include <burnish/trace.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/pace.hpp"
+
+/// From a scene to the picture of a window, in one or several panes.
+namespace burnish::view {
+
+/// A machine's part of the picture, in shares of the width.
+struct Pane {
+    Machine machine;
+    float from = 0.0F, to = 1.0F;
+};
+
+/// What the window wants to see.
+struct Wish {
+    std::uint64_t id = 0;                ///< of the newest one: whatever is older is out of date
+    std::shared_ptr<const Scene> scene;  ///< at the window's size
+    std::vector<Pane> panes;             ///< from left to right
+    bool heat_map = false;               ///< |pane - double| in the colours of metrics/heat_map.hpp
+    float gain = 1.0F;                   ///< of the differences
+    std::optional<glm::ivec2> pixel;     ///< to be traced
+    bool moving = false;                 ///< more wishes are to be expected
+    RendererOptions renderer;
+};
+
+/// How far a picture has come.
+enum class Fineness {
+    within_budget,  ///< as large as the time for a frame allows, enlarged
+    full,           ///< a sample in the centre of every pixel
+    smooth,         ///< 4 samples
+    smoothest,      ///< 16 samples
+};
+
+struct PaneReport {
+    std::string machine;
+    double ms = 0.0;
+    int divisor = 1;  ///< of the sides
+    int samples = 1;
+    std::string error;  ///< why there is nothing to see; empty: there is
+};
+
+struct Picture {
+    std::uint64_t id = 0;  ///< of the wish
+    Fineness fineness = Fineness::within_budget;
+    Framebuffer frame;  ///< rgba8, the scene's size
+    std::vector<PaneReport> panes;
+    FrameStats stats;  ///< of the first pane that was drawn
+    double ms = 0.0;   ///< of everything
+    /// Of the wish's pixel, from fineness `full` on.
+    std::shared_ptr<const PixelTrace> trace;
+    std::string trace_error;
+};
+
+/// Renders with `side` x `side` samples per pixel, a machine's samples averaged.
+using DrawSamples =
+    std::function<FrameStats(Renderer&, const Scene&, int side, Framebuffer& target)>;
+
+/// Draws wishes, one call at a time.
+class PictureMaker {
+  public:
+    PictureMaker(DrawSamples draw, double budget_ms) : m_draw(std::move(draw)), m_pace(budget_ms) {}
+
+    /// Never throws for what a scene or machine cannot do: that is told pane by pane.
+    Picture make(const Wish& wish, Fineness fineness);
+
+  private:
+    void draw_pane(const Wish& wish, Fineness fineness, std::size_t index, Picture& picture);
+    Renderer& renderer_for(const RendererOptions& options);
+
+    DrawSamples m_draw;
+    Pace m_pace;
+    std::unique_ptr<Renderer> m_renderer;
+    RendererOptions m_options;
+};
+
+/// What comes after `picture` while nothing moves. Pictures of several samples are for machines:
+/// they would hide errors in a heat map, and double precision takes seconds for them.
+std::optional<Fineness> finer(const Wish& wish, const Picture& picture);
+
+}  // namespace burnish::view

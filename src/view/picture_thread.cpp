@@ -1,0 +1,73 @@
+#include "view/picture_thread.hpp"
+
+namespace burnish::view {
+
+PictureThread::PictureThread(PictureMaker maker, std::function<void()> ready)
+    : m_maker(std::move(maker)), m_ready(std::move(ready)), m_thread([this] { run(); }) {}
+
+PictureThread::~PictureThread() {
+    {
+        const std::scoped_lock lock(m_mutex);
+        m_stop = true;
+    }
+    m_changed.notify_one();
+    m_thread.join();
+}
+
+void PictureThread::wish(Wish wish) {
+    {
+        const std::scoped_lock lock(m_mutex);
+        m_wish = std::move(wish);
+    }
+    m_changed.notify_one();
+}
+
+std::optional<Picture> PictureThread::take() {
+    const std::scoped_lock lock(m_mutex);
+    std::optional<Picture> picture = std::move(m_picture);
+    m_picture.reset();
+    return picture;
+}
+
+bool PictureThread::is_idle() {
+    const std::scoped_lock lock(m_mutex);
+    return !m_busy && !m_wish && !m_picture;
+}
+
+std::optional<Wish> PictureThread::next_wish() {
+    std::unique_lock lock(m_mutex);
+    m_busy = false;
+    m_changed.wait(lock, [this] { return m_stop || m_wish; });
+    if (m_stop) return std::nullopt;
+    m_busy = true;
+    std::optional<Wish> wish = std::move(m_wish);
+    m_wish.reset();
+    return wish;
+}
+
+bool PictureThread::has_newer() {
+    const std::scoped_lock lock(m_mutex);
+    return m_stop || m_wish;
+}
+
+void PictureThread::deliver(Picture picture) {
+    {
+        const std::scoped_lock lock(m_mutex);
+        m_picture = std::move(picture);
+    }
+    m_ready();
+}
+
+void PictureThread::run() {
+    while (std::optional<Wish> wish = next_wish()) {
+        std::optional<Fineness> fineness = Fineness::within_budget;
+        while (fineness) {
+            Picture picture = m_maker.make(*wish, *fineness);
+            fineness = finer(*wish, picture);
+            deliver(std::move(picture));
+            if (has_newer()) break;
+        }
+    }
+}
+
+}  // namespace burnish::view

@@ -1,0 +1,185 @@
+#include "view/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <burnish/error.hpp>
+#include <string_view>
+
+namespace burnish::view {
+namespace {
+
+constexpr std::array<std::string_view, 5> kKnownEndings{".toml", ".obj", ".ply", ".off", ".stl"};
+
+/// A drag over the window's height turns by so many degrees.
+constexpr float kOrbitDegrees = 180.0F;
+
+}  // namespace
+
+void Session::show(Scene scene, const std::filesystem::path& input) {
+    m_materials.forget();
+    m_loaded = std::move(scene);
+    m_ball = ball_around(m_loaded);
+    state.input = input;
+    message.clear();
+}
+
+void Session::open(const std::filesystem::path& input) {
+    Scene scene = m_load(input);
+    const int width = state.width;
+    const int height = state.height;
+    state = state_of(scene, input);
+    state.width = width;
+    state.height = height;
+    show(std::move(scene), input);
+}
+
+void Session::open(const ViewState& saved) {
+    Scene scene = m_load(saved.input);
+    state = saved;
+    show(std::move(scene), saved.input);
+}
+
+void Session::try_open(const std::filesystem::path& input) {
+    try {
+        open(input);
+    } catch (const Error& error) {
+        message = error.what();
+    }
+}
+
+void Session::reload() {
+    try {
+        show(m_load(state.input), state.input);
+    } catch (const Error& error) {
+        message = error.what();
+    }
+}
+
+void Session::step_file(int direction) {
+    const std::vector<std::filesystem::path> files = neighbours(state.input);
+    const auto here = std::find(files.begin(), files.end(), state.input);
+    if (files.size() < 2 || here == files.end()) return;
+    const auto count = static_cast<std::ptrdiff_t>(files.size());
+    const std::ptrdiff_t next = (here - files.begin() + direction + count) % count;
+    // One that cannot be read is passed over: the message names it, and the next step goes on.
+    const std::filesystem::path chosen = files[static_cast<std::size_t>(next)];
+    try_open(chosen);
+    if (!message.empty()) state.input = chosen;
+}
+
+void Session::reset_camera() {
+    state.camera = by_vectors(m_loaded.camera, m_ball);
+    state.light.reset();
+}
+
+void Session::look_from(Side side) {
+    state.camera = seen_from(side, state.camera, m_ball, aspect());
+}
+
+void Session::orbit(float right, float down) {
+    state.camera = orbited(state.camera, kOrbitDegrees * right, kOrbitDegrees * down);
+}
+
+void Session::pan(float right, float down) {
+    state.camera = panned(state.camera, right, down);
+}
+
+void Session::zoom(float factor) {
+    state.camera = zoomed(state.camera, factor, m_ball);
+}
+
+void Session::turn_light(float right, float down) {
+    glm::vec3 towards(0.0F, 0.0F, 1.0F);
+    if (state.light) {
+        towards = *state.light;
+    } else if (!m_loaded.lights.empty()) {
+        const Light& first = m_loaded.lights.front();
+        towards = first.position_w == 0.0F ? first.position : first.position - m_ball.centre;
+    }
+    if (towards == glm::vec3(0.0F)) towards.z = 1.0F;
+    state.light = turned_light(glm::normalize(towards), state.camera, kOrbitDegrees * right,
+                               kOrbitDegrees * down);
+}
+
+std::optional<Wish> Session::wish(bool moving) {
+    Wish wish;
+    program_errors.clear();
+    try {
+        wish.scene = std::make_shared<const Scene>(
+            edited_scene(m_loaded, state, m_materials, program_errors));
+    } catch (const Error& error) {
+        message = error.what();
+        return std::nullopt;
+    }
+    wish.id = ++m_wishes;
+    if (state.split) {
+        const std::vector<Machine> machines = split_machines();
+        const std::array<float, 5> edges{0.0F, state.lines[0], state.lines[1], state.lines[2],
+                                         1.0F};
+        for (std::size_t i = 0; i < machines.size(); ++i)
+            wish.panes.push_back({machine_for(state, machines[i]), edges[i], edges[i + 1]});
+    } else {
+        wish.panes.push_back({wish.scene->machine, 0.0F, 1.0F});
+    }
+    wish.heat_map = state.heat_map;
+    wish.gain = state.gain;
+    wish.pixel = state.pixel;
+    if (wish.pixel && (wish.pixel->x >= state.width || wish.pixel->y >= state.height))
+        wish.pixel.reset();
+    wish.moving = moving;
+    wish.renderer = renderer;
+    return wish;
+}
+
+MaterialEdit& Session::edit_of(const std::string& material) {
+    for (MaterialEdit& edit : state.materials)
+        if (edit.name == material) return edit;
+    MaterialEdit edit;
+    edit.name = material;
+    return state.materials.emplace_back(std::move(edit));
+}
+
+void Session::forget_edit(const std::string& material) {
+    std::erase_if(state.materials, [&](const MaterialEdit& edit) { return edit.name == material; });
+}
+
+std::vector<const Material*> Session::materials() const {
+    std::vector<const Material*> found;
+    for (const Object& object : m_loaded.objects) {
+        const Material* material = object.material.get();
+        if (material != nullptr && std::find(found.begin(), found.end(), material) == found.end())
+            found.push_back(material);
+    }
+    return found;
+}
+
+float Session::aspect() const {
+    return static_cast<float>(state.width) / static_cast<float>(state.height);
+}
+
+std::vector<Machine> split_machines() {
+    std::vector<Machine> machines;
+    for (const std::string_view name : machine_profile_names()) {
+        machines.push_back(machine_profile(name));
+        machines.back().multipass = !machines.back().double_precision;
+    }
+    return machines;
+}
+
+std::vector<std::filesystem::path> neighbours(const std::filesystem::path& input) {
+    std::vector<std::filesystem::path> files;
+    std::error_code failure;
+    const std::filesystem::path directory =
+        input.has_parent_path() ? input.parent_path() : std::filesystem::path(".");
+    for (const auto& entry : std::filesystem::directory_iterator(directory, failure)) {
+        const std::string ending = entry.path().extension().string();
+        if (std::find(kKnownEndings.begin(), kKnownEndings.end(), ending) == kKnownEndings.end())
+            continue;
+        if (entry.is_regular_file(failure))
+            files.push_back(input.has_parent_path() ? entry.path() : entry.path().filename());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+}  // namespace burnish::view

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <burnish/renderer.hpp>
+#include <burnish/scene.hpp>
+#include <burnish/view_state.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "view/edited_scene.hpp"
+#include "view/orbit.hpp"
+#include "view/picture.hpp"
+
+namespace burnish::view {
+
+using LoadScene = std::function<Scene(const std::filesystem::path&)>;
+
+/// What is looked at and how: all of the viewer but its window. What cannot be done leaves
+/// everything as it was and says so in `message`.
+class Session {
+  public:
+    /// `load` reads a scene or mesh; throws Error.
+    explicit Session(LoadScene load) : m_load(std::move(load)) {}
+
+    /// Another input as it is, in the size that the window has. Throws what loading throws.
+    void open(const std::filesystem::path& input);
+    /// A saved state and its input. Throws likewise.
+    void open(const ViewState& state);
+    /// The same two for an input that a hand dropped: failures become `message`.
+    void try_open(const std::filesystem::path& input);
+    /// Reads the input again and keeps the rest of the state.
+    void reload();
+    /// The next (1) or previous (-1) scene or mesh of the input's directory, around its end.
+    void step_file(int direction);
+    /// The camera and the light that the input has.
+    void reset_camera();
+    void look_from(Side side);
+
+    void orbit(float right, float down);  ///< by shares of the window's height
+    void pan(float right, float down);
+    void zoom(float factor);
+    void turn_light(float right, float down);
+
+    /// What a picture of all this is made from. Nothing if it cannot be: `message` says why.
+    [[nodiscard]] std::optional<Wish> wish(bool moving);
+
+    /// The edit of the material with that name, made if need be.
+    MaterialEdit& edit_of(const std::string& material);
+    /// Forgets what was changed of it.
+    void forget_edit(const std::string& material);
+
+    ViewState state;
+    RendererOptions renderer;
+    std::string message;                       ///< the last thing that went wrong; empty: nothing
+    std::vector<ProgramError> program_errors;  ///< of the last wish
+    [[nodiscard]] const Scene& loaded() const { return m_loaded; }
+    [[nodiscard]] const Ball& ball() const { return m_ball; }
+    /// Materials of the scene, each once, in the order of the objects.
+    [[nodiscard]] std::vector<const Material*> materials() const;
+    [[nodiscard]] float aspect() const;
+
+  private:
+    void show(Scene scene, const std::filesystem::path& input);
+
+    LoadScene m_load;
+    Scene m_loaded;
+    Ball m_ball;
+    EditedMaterials m_materials;
+    std::uint64_t m_wishes = 0;
+};
+
+/// The machines of a split picture, from left to right.
+std::vector<Machine> split_machines();
+
+/// Scenes and meshes in the directory of `input`, sorted by name, `input` among them.
+std::vector<std::filesystem::path> neighbours(const std::filesystem::path& input);
+
+}  // namespace burnish::view

@@ -1,0 +1,345 @@
+#include "view/viewer.hpp"
+
+#include <backends/imgui_impl_sdl.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+#include <burnish/materials.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace burnish::view {
+namespace {
+
+/// Sixty frames a second with a little to spare.
+constexpr double kBudgetMs = 14.0;
+/// Files are looked at so often.
+constexpr double kWatchMs = 250.0;
+/// A hand that moved less has clicked.
+constexpr int kClickPixels = 3;
+constexpr int kLinePixels = 6;
+/// Panels need a frame to take an event in and one to come to rest.
+constexpr int kDrawsAfterEvent = 3;
+
+double now_ms() {
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+Uint32 picture_event() {
+    static const Uint32 type = SDL_RegisterEvents(1);
+    return type;
+}
+
+/// Wakes the window's thread.
+void tell_of_picture() {
+    SDL_Event event{};
+    event.type = picture_event();
+    SDL_PushEvent(&event);
+}
+
+const char* fineness_name(Fineness fineness) {
+    constexpr const char* kNames[] = {"within budget", "full", "4 samples", "16 samples"};
+    return kNames[static_cast<int>(fineness)];
+}
+
+/// The first of "STEM-view-0001.png" ... that is not there.
+std::filesystem::path free_name(const std::filesystem::path& input) {
+    const std::string stem = input.stem().string();
+    for (int number = 1; number < 10000; ++number) {
+        const std::filesystem::path name = fmt::format("{}-view-{:04}.png", stem, number);
+        std::error_code ignored;
+        if (!std::filesystem::exists(name, ignored)) return name;
+    }
+    throw Error(ErrorCode::io, "screenshot: 9999 files are there already");
+}
+
+/// As one that can be read from anywhere.
+ViewState with_absolute_input(ViewState state) {
+    std::error_code failure;
+    const std::filesystem::path whole = std::filesystem::absolute(state.input, failure);
+    if (!failure) state.input = whole.lexically_normal();
+    return state;
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewRequest& request, Session session)
+    : m_request(request),
+      m_session(std::move(session)),
+      m_window("burnish", {m_session.state.width, m_session.state.height}),
+      m_pictures(PictureMaker(request.draw, kBudgetMs), tell_of_picture) {
+    m_session.renderer = request.renderer;
+}
+
+bool Viewer::is_moving() const {
+    return m_dragged || (ImGui::IsAnyItemActive() && !ImGui::GetIO().WantTextInput);
+}
+
+std::optional<std::size_t> Viewer::line_at(int x) const {
+    if (!m_session.state.split) return std::nullopt;
+    const std::array<float, 3>& lines = m_session.state.lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const float at = lines[i] * static_cast<float>(m_session.state.width);
+        if (std::abs(at - static_cast<float>(x)) <= kLinePixels) return i;
+    }
+    return std::nullopt;
+}
+
+void Viewer::act(Action action) {
+    ViewState& state = m_session.state;
+    switch (action) {
+        case Action::view_front:
+            return m_session.look_from(Side::front);
+        case Action::view_right:
+            return m_session.look_from(Side::right);
+        case Action::view_top:
+            return m_session.look_from(Side::top);
+        case Action::view_isometric:
+            return m_session.look_from(Side::isometric);
+        case Action::reset_camera:
+            return m_session.reset_camera();
+        case Action::key_list:
+            m_open.key_list = !m_open.key_list;
+            return;
+        case Action::screenshot:
+            m_wants_shot = true;
+            return;
+        case Action::screenshot_window:
+            m_wants_window_shot = true;
+            return;
+        case Action::next_file:
+            return m_session.step_file(1);
+        case Action::previous_file:
+            return m_session.step_file(-1);
+        case Action::reload:
+            m_wished.clear();
+            return m_session.reload();
+        case Action::split:
+            state.split = !state.split;
+            return;
+        case Action::heat_map:
+            state.heat_map = !state.heat_map;
+            return;
+        case Action::next_machine: {
+            const std::vector<std::string_view> names = machine_profile_names();
+            const std::string shown =
+                state.machine.empty() ? m_session.loaded().machine.name : state.machine;
+            const auto here = std::find(names.begin(), names.end(), shown);
+            const bool last = here == names.end() || here + 1 == names.end();
+            state.machine = last ? names.front() : *(here + 1);
+            return;
+        }
+        case Action::panels:
+            m_panels = !m_panels;
+            return;
+        case Action::program:
+            m_open.program = !m_open.program;
+            return;
+        case Action::frame_graph:
+            m_open.frame_graph = !m_open.frame_graph;
+            return;
+        case Action::forget_pixel:
+            state.pixel.reset();
+            return;
+        case Action::quit:
+            m_running = false;
+            return;
+    }
+}
+
+void Viewer::handle_key(const SDL_KeyboardEvent& event) {
+    if (ImGui::GetIO().WantTextInput) return;
+    if (const std::optional<Action> action = action_of(event)) act(*action);
+}
+
+void Viewer::handle_button(const SDL_MouseButtonEvent& event) {
+    if (event.type == SDL_MOUSEBUTTONDOWN) {
+        m_pressed = {event.x, event.y};
+        m_dragged = false;
+        m_line.reset();
+        if (event.button == SDL_BUTTON_LEFT) m_line = line_at(event.x);
+        return;
+    }
+    const bool clicked = !m_dragged && !m_line && event.button == SDL_BUTTON_LEFT;
+    if (clicked && !ImGui::GetIO().WantCaptureMouse) m_session.state.pixel = {event.x, event.y};
+    if (m_dragged) m_wished.clear();  // what was drawn in haste is drawn again
+    m_dragged = false;
+    m_line.reset();
+}
+
+void Viewer::handle_motion(const SDL_MouseMotionEvent& event) {
+    if (event.state == 0) return;
+    const glm::ivec2 way = glm::ivec2(event.x, event.y) - m_pressed;
+    if (!m_dragged && std::abs(way.x) < kClickPixels && std::abs(way.y) < kClickPixels) return;
+    m_dragged = true;
+    const auto height = static_cast<float>(m_session.state.height);
+    const float right = static_cast<float>(event.xrel) / height;
+    const float down = static_cast<float>(event.yrel) / height;
+    const bool shift = (SDL_GetModState() & KMOD_SHIFT) != 0;
+    if (m_line) {
+        std::array<float, 3>& lines = m_session.state.lines;
+        const float low = *m_line == 0 ? 0.0F : lines[*m_line - 1];
+        const float high = *m_line == 2 ? 1.0F : lines[*m_line + 1];
+        const float at = static_cast<float>(event.x) / static_cast<float>(m_session.state.width);
+        lines[*m_line] = std::clamp(at, low, high);
+    } else if (SDL_GetKeyboardState(nullptr)[SDL_SCANCODE_L] != 0) {
+        m_session.turn_light(right, down);
+    } else if ((event.state & SDL_BUTTON_MMASK) != 0 || shift) {
+        m_session.pan(right, down);
+    } else if ((event.state & SDL_BUTTON_RMASK) != 0) {
+        m_session.zoom(std::exp(-2.0F * down));
+    } else {
+        m_session.orbit(right, down);
+    }
+}
+
+void Viewer::handle(const SDL_Event& event) {
+    ImGui_ImplSDL2_ProcessEvent(&event);
+    const ImGuiIO& io = ImGui::GetIO();
+    switch (event.type) {
+        case SDL_QUIT:
+            m_running = false;
+            break;
+        case SDL_KEYDOWN:
+            handle_key(event.key);
+            break;
+        case SDL_MOUSEBUTTONDOWN:
+        case SDL_MOUSEBUTTONUP:
+            if (!io.WantCaptureMouse || event.type == SDL_MOUSEBUTTONUP)
+                handle_button(event.button);
+            break;
+        case SDL_MOUSEMOTION:
+            if (!io.WantCaptureMouse) handle_motion(event.motion);
+            break;
+        case SDL_MOUSEWHEEL:
+            if (!io.WantCaptureMouse)
+                m_session.zoom(std::pow(1.1F, static_cast<float>(event.wheel.y)));
+            break;
+        case SDL_DROPFILE:
+            m_session.try_open(event.drop.file);
+            SDL_free(event.drop.file);
+            break;
+        default:
+            break;
+    }
+    if (event.type != picture_event()) m_draws = kDrawsAfterEvent;
+}
+
+void Viewer::wait_for_events() {
+    SDL_Event event;
+    const int patience = m_draws > 0 ? 1 : static_cast<int>(kWatchMs);
+    if (SDL_WaitEventTimeout(&event, patience) == 0) return;
+    do handle(event);
+    while (SDL_PollEvent(&event) != 0);
+}
+
+void Viewer::look_at_files() {
+    const double now = now_ms();
+    if (m_watched != m_session.state.input) {
+        m_watched = m_session.state.input;
+        try {
+            m_watch.watch(input_files(m_watched));
+        } catch (const Error&) {
+            m_watch.watch({m_watched});
+        }
+    }
+    if (now - m_looked_ms < kWatchMs) return;
+    m_looked_ms = now;
+    if (!m_watch.changed()) return;
+    m_watched.clear();
+    m_wished.clear();
+    m_draws = kDrawsAfterEvent;
+    m_session.reload();
+}
+
+void Viewer::ask_for_picture() {
+    const glm::ivec2 size = m_window.size();
+    m_session.state.width = size.x;
+    m_session.state.height = size.y;
+    const bool moving = is_moving();
+    const std::string wished =
+        fmt::format("{}{} {} {}", view_state_text(m_session.state), m_session.renderer.threads,
+                    m_session.renderer.isa, moving);
+    if (wished == m_wished) return;
+    m_wished = wished;
+    m_draws = kDrawsAfterEvent;
+    const std::string before = m_session.message;
+    if (std::optional<Wish> wish = m_session.wish(moving)) m_pictures.wish(std::move(*wish));
+}
+
+void Viewer::take_picture() {
+    std::optional<Picture> picture = m_pictures.take();
+    if (!picture) return;
+    m_picture = std::move(picture);
+    m_draws = std::max(m_draws, 1);
+    if (m_picture->fineness == Fineness::within_budget)
+        m_times.shown(*m_picture, now_ms());
+    else
+        m_times.rest();
+    if (!m_request.report || !m_pictures.is_idle() || is_moving()) return;
+    fmt::print("{}: {} x {}, {}", m_session.state.input.string(), m_picture->frame.width(),
+               m_picture->frame.height(), fineness_name(m_picture->fineness));
+    for (const PaneReport& pane : m_picture->panes)
+        fmt::print(", {} {:.2f} ms{}", pane.machine, pane.ms,
+                   pane.error.empty() ? "" : ": " + pane.error);
+    fmt::print("\n");
+    std::fflush(stdout);
+}
+
+void Viewer::save_screenshot() {
+    try {
+        const std::filesystem::path name = free_name(m_session.state.input);
+        const std::string text = view_state_text(with_absolute_input(m_session.state));
+        if (m_wants_window_shot)
+            save_image(m_window.shot(), name, text);
+        else
+            save_image(m_picture->frame, name, text);
+        fmt::print("{}\n", name.string());
+        std::fflush(stdout);
+    } catch (const Error& error) {
+        m_session.message = error.what();
+    }
+    m_wants_shot = false;
+    m_wants_window_shot = false;
+}
+
+void Viewer::draw() {
+    m_window.begin_panels();
+    const Picture* picture = m_picture ? &*m_picture : nullptr;
+    picture_overlay(m_session, picture);
+    if (m_panels) {
+        if (m_open.controls) controls_panel(m_session, picture);
+        trace_panel(m_session, picture);
+        if (m_open.program) program_panel(m_session, picture);
+        if (m_open.frame_graph) frame_graph_panel(m_times, picture);
+    }
+    if (m_open.key_list) key_list_panel(m_open);
+    m_window.show(m_picture ? &m_picture->frame : nullptr);
+}
+
+void Viewer::run() {
+    while (m_running) {
+        wait_for_events();
+        look_at_files();
+        ask_for_picture();
+        take_picture();
+        if (m_draws > 0) {
+            draw();
+            --m_draws;
+        }
+        const bool at_rest = m_draws == 0 && m_picture && m_pictures.is_idle();
+        if ((m_wants_shot || m_wants_window_shot) && at_rest) save_screenshot();
+    }
+    if (!m_request.save_state.empty())
+        save_text(view_state_text(with_absolute_input(m_session.state)), m_request.save_state);
+    if (m_request.report) fmt::print("{}\n", m_times.json());
+}
+
+}  // namespace burnish::view

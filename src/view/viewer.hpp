@@ -1,0 +1,66 @@
+#pragma once
+
+#include <SDL.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "view/file_watch.hpp"
+#include "view/frame_times.hpp"
+#include "view/keys.hpp"
+#include "view/panels.hpp"
+#include "view/picture_thread.hpp"
+#include "view/session.hpp"
+#include "view/view.hpp"
+#include "view/window.hpp"
+
+namespace burnish::view {
+
+/// The loop: events to the session, the session's wishes to the picture thread, its pictures and
+/// the panels to the window.
+class Viewer {
+  public:
+    Viewer(const ViewRequest& request, Session session);
+    /// Until the window is closed.
+    void run();
+
+  private:
+    void wait_for_events();
+    void handle(const SDL_Event& event);
+    void handle_key(const SDL_KeyboardEvent& event);
+    void handle_button(const SDL_MouseButtonEvent& event);
+    void handle_motion(const SDL_MouseMotionEvent& event);
+    void act(Action action);
+    void look_at_files();
+    void ask_for_picture();
+    void take_picture();
+    void draw();
+    void save_screenshot();
+    [[nodiscard]] bool is_moving() const;
+    [[nodiscard]] std::optional<std::size_t> line_at(int x) const;
+
+    const ViewRequest& m_request;
+    Session m_session;
+    Window m_window;
+    PictureThread m_pictures;
+    FileWatch m_watch;
+    FrameTimes m_times;
+    OpenPanels m_open;
+    std::optional<Picture> m_picture;
+
+    std::string m_wished;             ///< what the last wish was about, as text
+    std::filesystem::path m_watched;  ///< the input whose files are watched
+    double m_looked_ms = 0.0;         ///< when they were looked at
+    int m_draws = 0;                  ///< frames until the panels have come to rest
+    bool m_panels = true;
+    bool m_running = true;
+    bool m_wants_shot = false;  ///< as soon as the picture is at rest
+    bool m_wants_window_shot = false;
+
+    glm::ivec2 m_pressed{0, 0};         ///< where a button went down
+    bool m_dragged = false;             ///< since then
+    std::optional<std::size_t> m_line;  ///< of the split picture, in a hand
+};
+
+}  // namespace burnish::view
