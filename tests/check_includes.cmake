@@ -31,7 +31,7 @@ set(std "<[a-z0-9_]+>")  # one word in brackets: the standard library
 set(public "<burnish/[a-z0-9_]+\\.hpp>")
 
 # Each library behind one door.
-rule("^src/(app|core|geometry|image|include|machine|mesh|models|program|raster|scene|shade|trace|pipeline|draw)"
+rule("^src/(app|core|geometry|image|include|machine|mesh|models|program|raster|scene|shade|trace|view|pipeline|draw)"
   DENY "<(OpenMesh|OpenImageIO|toml\\+\\+)/" "only src/io may see file formats")
 rule("^src/io/([^i]|i[^m])" DENY "<OpenImageIO/" "only src/io/image_io.cpp may")
 rule("^src/io/image_io\\.cpp" DENY "<fmt/" "OpenImageIO bundles another fmt")
@@ -69,8 +69,12 @@ rule("^src/reference/" DENY "\"(app|image|io|kernels|machine|mesh|pipeline|progr
 rule("^src/(pipeline|draw)" DENY "\"(app|io|trace)/" "later stage")
 rule("^src/metrics/" DENY "\"(app|geometry|image|io|kernels|machine|mesh|models|pipeline|program|raster|reference|scene|shade|trace)[/.]"
   "metrics know pictures only")
-rule("^src/[^alm]|^src/(m[^e]|me[^t])" DENY "\"metrics/" "only those who compare pictures")
-rule("^src/([^al]|app/([^be]|b[^y]))" DENY "\"lab/" "what measures the library is above all of it")
+rule("^src/[^almv]|^src/(m[^e]|me[^t])" DENY "\"metrics/" "only those who compare pictures")
+rule("^src/([^alv]|app/([^be]|b[^y]))" DENY "\"lab/" "what measures the library is above all of it")
+rule("^src/view/" DENY "\"(app|geometry|image|io|kernels|machine|mesh|pipeline|program|raster|reference|scene|shade|trace)[/.]"
+  "the window is a user of the library, as the command is")
+rule("^src/([^av]|app/([^v]|v[^i]))" DENY "\"view/" "only the command opens windows")
+rule("^(src/([^v]|v[^i])|tests/[^v])" DENY "<(SDL|imgui|backends/imgui)" "only src/view/ sees windows")
 rule("^src/trace/" DENY "\"(app|io|pipeline)[/.]" "beside the renderer, above its stages")
 rule("." DENY "\"\\.\\.?/" "paths start at src/ or at the top")
 

@@ -48,7 +48,8 @@ void read_machine(const Section& root, ViewState& state) {
     const toml::table* table = root.table("machine");
     if (table == nullptr) return;
     const Section section(*table, "[machine]",
-                          {"profile", "half_vector", "filter_order", "mipmaps", "mipmap_bits"});
+                          {"profile", "half_vector", "filter_order", "mipmaps", "mipmap_bits",
+                           "bits"});
     state.machine = known_word(section, "profile", machine_profile_names()).value_or("");
     state.half_vector = section.text("half_vector");
     Machine tried;
@@ -59,6 +60,7 @@ void read_machine(const Section& root, ViewState& state) {
     }
     if (const auto order = known_word(section, "filter_order", {"before", "after"}))
         state.filter_order = filter_order_of(*order);
+    state.bits = section.text("bits").value_or("");
     Material mipmapped;
     read_mipmaps(section, {}, mipmapped);
     state.mipmaps = mipmapped.mipmaps;

@@ -56,6 +56,7 @@ std::string machine_text(const ViewState& state) {
         if (state.mipmaps->bits != 0)
             text += fmt::format("mipmap_bits = {}\n", state.mipmaps->bits);
     }
+    if (!state.bits.empty()) text += fmt::format("bits = {}\n", toml_string(state.bits));
     return text.empty() ? text : "\n[machine]\n" + text;
 }
 

@@ -2,8 +2,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <burnish/error.hpp>
 #include <burnish/materials.hpp>
 
+#include "lab/stage_bits_text.hpp"
 #include "view/panels.hpp"
 
 namespace burnish::view {
@@ -58,6 +60,44 @@ void machine_controls(Session& session) {
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
+/// A slider for each stage; all the way to the right is exact.
+void bits_controls(std::string& text) {
+    if (!ImGui::CollapsingHeader("bits per stage")) return;
+    lab::StageBits bits;
+    try {
+        lab::set_stage_bits(bits, text);
+    } catch (const Error&) {
+        text.clear();
+        bits = {};
+    }
+    bool active = !text.empty();
+    bool changed = ImGui::Checkbox("chosen bits instead of the machine's", &active);
+    const auto slider = [&](const char* label, int least, int& value) {
+        constexpr int kMost = 16;
+        int shown = value == kExactBits ? kMost + 1 : value;
+        const char* const format = shown > kMost ? "exact" : "%d";
+        if (!ImGui::SliderInt(label, &shown, least, kMost + 1, format,
+                              ImGuiSliderFlags_AlwaysClamp))
+            return;
+        value = shown > kMost ? kExactBits : shown;
+        changed = active = true;
+    };
+    slider("half vectors", 1, bits.half_vector);
+    slider("textures", 1, bits.textures);
+    slider("filters", 1, bits.filter);
+    slider("combiners", 2, bits.combiners);
+    slider("tables", 1, bits.table);
+    slider("frame", 1, bits.frame);
+    if (!changed) return;
+    text = !active ? ""
+                   : fmt::format(
+                         "half_vector={},textures={},filter={},combiners={},table={},"
+                         "frame={}",
+                         lab::bits_text(bits.half_vector), lab::bits_text(bits.textures),
+                         lab::bits_text(bits.filter), lab::bits_text(bits.combiners),
+                         lab::bits_text(bits.table), lab::bits_text(bits.frame));
+}
+
 void worker_controls(Session& session) {
     ImGui::SliderInt("threads", &session.renderer.threads, 0, 16,
                      session.renderer.threads == 0 ? "all" : "%d", ImGuiSliderFlags_AlwaysClamp);
@@ -83,12 +123,12 @@ bool choose_word(const char* label, const std::vector<std::string_view>& words,
 
 void controls_panel(Session& session, const Picture* picture) {
     ImGui::SetNextWindowPos(ImVec2(8.0F, 8.0F), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(270.0F, 0.0F), ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("burnish")) {
+    if (ImGui::Begin("burnish", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::PushItemWidth(150.0F);
         file_controls(session, picture);
         machine_controls(session);
         worker_controls(session);
+        bits_controls(session.state.bits);
         ImGui::Separator();
         material_controls(session);
         ImGui::Separator();

@@ -8,7 +8,7 @@
 namespace burnish::view {
 
 void frame_graph_panel(const FrameTimes& times, const Picture* picture) {
-    ImGui::SetNextWindowPos(ImVec2(290.0F, 440.0F), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowPos(ImGui::GetIO().DisplaySize, ImGuiCond_FirstUseEver, ImVec2(1.0F, 1.0F));
     ImGui::SetNextWindowSize(ImVec2(340.0F, 0.0F), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("frames")) {
         std::vector<float> intervals;

@@ -21,7 +21,8 @@ void FrameTimes::shown(const Picture& picture, double now_ms) {
     m_last_ms = now_ms;
     if (interval <= 0.0) return;
     m_frames.push_back({interval, picture.ms, picture.stats.geometry_ms, picture.stats.tiles_ms,
-                        picture.stats.shaded_pixels, picture.stats.triangles});
+                        picture.stats.shaded_pixels, picture.stats.triangles,
+                        picture.panes.front().divisor});
     if (m_frames.size() > kKept) m_frames.pop_front();
     m_intervals.push_back(static_cast<float>(interval));
     if (m_intervals.size() > kMostIntervals) m_intervals.pop_front();
@@ -53,9 +54,9 @@ std::string FrameTimes::json() const {
     for (const Frame& frame : m_frames) {
         text += fmt::format(
             "{}{{\"interval_ms\": {:.3f}, \"draw_ms\": {:.3f}, \"geometry_ms\": {:.3f}, "
-            "\"tiles_ms\": {:.3f}, \"shaded_pixels\": {}, \"triangles\": {}}}",
+            "\"tiles_ms\": {:.3f}, \"shaded_pixels\": {}, \"triangles\": {}, \"divisor\": {}}}",
             comma, frame.interval_ms, frame.draw_ms, frame.geometry_ms, frame.tiles_ms,
-            frame.pixels, frame.triangles);
+            frame.pixels, frame.triangles, frame.divisor);
         comma = ", ";
     }
     return text + "]}";

@@ -58,6 +58,7 @@ void key_list_panel(OpenPanels& open) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.5F * size.x, 0.5F * size.y), ImGuiCond_Always,
                             ImVec2(0.5F, 0.5F));
+    ImGui::SetNextWindowBgAlpha(1.0F);
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoCollapse |
                                         ImGuiWindowFlags_NoFocusOnAppearing;

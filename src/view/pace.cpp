@@ -6,27 +6,33 @@
 namespace burnish::view {
 namespace {
 
-/// Before anything was measured: small at first, since a long frame cannot be taken back.
-constexpr double kUnknownNsPerPixel = 200.0;
+/// Before anything was measured: a small picture, since a long frame cannot be taken back.
+constexpr double kUnknownNsPerPixel = 60.0;
 constexpr int kMostDivisor = 16;
+/// Fixed costs beyond this share of the budget: a smaller picture would not help.
+constexpr double kMostFixed = 0.5;
+
+/// Follows what is measured, half of the way.
+double followed(double known, double now) {
+    return 0.5 * (known + now);
+}
 
 }  // namespace
 
-void Pace::took(const std::string& machine, double pixels, double ms) {
-    const double now = 1e6 * ms / std::max(pixels, 1.0);
-    const auto known = m_ns_per_pixel.find(machine);
-    // Slower at once, faster only little by little: sizes that go back and forth disturb.
-    if (known == m_ns_per_pixel.end())
-        m_ns_per_pixel.emplace(machine, now);
-    else
-        known->second = std::max(now, 0.8 * known->second + 0.2 * now);
+void Pace::took(const std::string& machine, double pixels, double ms, double fixed_ms) {
+    const double now = 1e6 * std::max(ms - fixed_ms, 0.0) / std::max(pixels, 1.0);
+    const auto [known, is_first] = m_costs.try_emplace(machine, Cost{fixed_ms, now});
+    if (is_first) return;
+    known->second.fixed_ms = followed(known->second.fixed_ms, fixed_ms);
+    known->second.ns_per_pixel = followed(known->second.ns_per_pixel, now);
 }
 
 int Pace::divisor(const std::string& machine, double pixels, int shares) const {
-    const auto known = m_ns_per_pixel.find(machine);
-    const double each = known == m_ns_per_pixel.end() ? kUnknownNsPerPixel : known->second;
-    const double allowed = 1e6 * m_budget_ms / shares;
-    const double ratio = std::sqrt(pixels * each / allowed);
+    const auto known = m_costs.find(machine);
+    const Cost cost = known == m_costs.end() ? Cost{0.0, kUnknownNsPerPixel} : known->second;
+    const double budget = m_budget_ms / shares;
+    const double allowed = 1e6 * (budget - std::min(cost.fixed_ms, kMostFixed * budget));
+    const double ratio = std::sqrt(pixels * cost.ns_per_pixel / allowed);
     return std::clamp(static_cast<int>(std::ceil(ratio - 1e-9)), 1, kMostDivisor);
 }
 

@@ -11,15 +11,19 @@ class Pace {
     /// Milliseconds that a picture may take while things move.
     explicit Pace(double budget_ms) : m_budget_ms(budget_ms) {}
 
-    /// `machine` took `ms` for so many pixels.
-    void took(const std::string& machine, double pixels, double ms);
+    /// `machine` took `ms` for so many pixels, `fixed_ms` of it for what no size makes shorter.
+    void took(const std::string& machine, double pixels, double ms, double fixed_ms);
     /// What a frame of `pixels` is divided by, in width and height: 1 .. 16. `shares`: how many
     /// pictures have to fit into the budget.
     [[nodiscard]] int divisor(const std::string& machine, double pixels, int shares) const;
 
   private:
     double m_budget_ms;
-    std::map<std::string, double> m_ns_per_pixel;
+    struct Cost {
+        double fixed_ms;
+        double ns_per_pixel;
+    };
+    std::map<std::string, Cost> m_costs;
 };
 
 }  // namespace burnish::view

@@ -8,7 +8,9 @@
 #include <cstring>
 #include <new>
 
-#include "metrics/heat_map.hpp"
+#include "lab/stage_bits.hpp"
+#include "lab/stage_bits_text.hpp"
+#include "view/error_map.hpp"
 
 namespace burnish::view {
 namespace {
@@ -69,34 +71,31 @@ void fill_columns(const Columns& columns, Framebuffer& target) {
     }
 }
 
-/// Mean over r, g, b of |a - b|, times `gain`.
-metrics::Plane difference(const Framebuffer& a, const Framebuffer& b, double gain) {
-    metrics::Plane plane(a.width(), a.height());
-    for (int y = 0; y < a.height(); ++y) {
-        const auto* left = reinterpret_cast<const float*>(a.row(y));
-        const auto* right = reinterpret_cast<const float*>(b.row(y));
-        double* out = plane.row(y);
-        for (int x = 0; x < a.width(); ++x, left += 4, right += 4) {
-            double sum = 0.0;
-            for (int c = 0; c < 3; ++c)
-                sum += std::abs(static_cast<double>(left[c]) -
-                                static_cast<double>(std::min(right[c], 1.0F)));
-            out[x] = gain * sum / 3.0;
-        }
+/// Numbers of 0 .. 1 as bytes, to nearest.
+void put_bytes(const Framebuffer& floats, Framebuffer& bytes) {
+    for (int y = 0; y < floats.height(); ++y) {
+        const auto* from = reinterpret_cast<const float*>(floats.row(y));
+        auto* to = reinterpret_cast<std::uint8_t*>(bytes.row(y));
+        for (int i = 0; i < 4 * floats.width(); ++i)
+            to[i] =
+                static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(from[i], 0.0F, 1.0F)));
     }
-    return plane;
-}
-
-Framebuffer frame_of(const Image8& image) {
-    Framebuffer frame(image.width, image.height);
-    std::memcpy(frame.pixels(), image.rgba.data(), image.rgba.size());
-    return frame;
 }
 
 Machine double_precision(const Machine& machine) {
     Machine result = machine_profile("double");
     result.filter_order = machine.filter_order;
     return result;
+}
+
+lab::StageBits bits_of(const Wish& wish) {
+    lab::StageBits bits;
+    lab::set_stage_bits(bits, wish.bits);
+    return bits;
+}
+
+bool has_bits(const Wish& wish, const Machine& machine) {
+    return !wish.bits.empty() && !machine.double_precision;
 }
 
 int side_of(Fineness fineness) {
@@ -113,6 +112,36 @@ Renderer& PictureMaker::renderer_for(const RendererOptions& options) {
     return *m_renderer;
 }
 
+Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Picture& picture) {
+    if (has_bits(wish, scene.machine))
+        return lab::render_with_bits(scene, bits_of(wish), wish.renderer.threads);
+    Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
+    picture.stats = renderer_for(wish.renderer).render(scene, frame);
+    return frame;
+}
+
+const Framebuffer& PictureMaker::truth_of(const Wish& wish, Scene scene) {
+    if (m_truth && m_truth_id == wish.id && m_truth->width() == scene.width) return *m_truth;
+    scene.machine = double_precision(scene.machine);
+    m_truth.emplace(scene.width, scene.height, PixelFormat::rgba32f);
+    renderer_for(wish.renderer).render(scene, *m_truth);
+    m_truth_id = wish.id;
+    return *m_truth;
+}
+
+Framebuffer PictureMaker::draw_frame(const Wish& wish, const Scene& scene, int side,
+                                     Picture& picture) {
+    if (wish.heat_map)
+        return error_map(draw_numbers(wish, scene, picture), truth_of(wish, scene),
+                         static_cast<double>(wish.gain));
+    Framebuffer frame(scene.width, scene.height);
+    if (has_bits(wish, scene.machine))
+        put_bytes(draw_numbers(wish, scene, picture), frame);
+    else
+        picture.stats = m_draw(renderer_for(wish.renderer), scene, side, frame);
+    return frame;
+}
+
 void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t index,
                              Picture& picture) {
     const Pane& pane = wish.panes[index];
@@ -124,32 +153,20 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
     try {
         Scene scene = *wish.scene;
         scene.machine = pane.machine;
-        const double pixels = static_cast<double>(scene.width) * scene.height;
-        const int drawn = static_cast<int>(wish.panes.size()) * (wish.heat_map ? 2 : 1);
-        const std::string pace = wish.heat_map ? "double" : pane.machine.name;
+        const std::string pace = wish.heat_map                   ? "error"
+                                 : has_bits(wish, scene.machine) ? "bits"
+                                                                 : scene.machine.name;
         if (fineness == Fineness::within_budget && can_shrink(scene))
-            report.divisor = m_pace.divisor(pace, pixels, drawn);
-        const int width = (scene.width + report.divisor - 1) / report.divisor;
-        const int height = (scene.height + report.divisor - 1) / report.divisor;
-        Renderer& renderer = renderer_for(wish.renderer);
-        if (wish.heat_map) {
-            Framebuffer test(width, height, PixelFormat::rgba32f);
-            Framebuffer truth(width, height, PixelFormat::rgba32f);
-            picture.stats = renderer.render(scene, test);
-            scene.machine = double_precision(pane.machine);
-            renderer.render(scene, truth);
-            const Image8 map =
-                metrics::heat_map(difference(test, truth, static_cast<double>(wish.gain)));
-            put_columns(frame_of(map), report.divisor, columns, picture.frame);
-        } else {
-            const int side = side_of(fineness);
-            report.samples = side * side;
-            Framebuffer frame(width, height);
-            picture.stats = m_draw(renderer, scene, side, frame);
-            put_columns(frame, report.divisor, columns, picture.frame);
-        }
+            report.divisor = m_pace.divisor(pace, static_cast<double>(scene.width) * scene.height,
+                                            static_cast<int>(wish.panes.size()));
+        scene.width = (scene.width + report.divisor - 1) / report.divisor;
+        scene.height = (scene.height + report.divisor - 1) / report.divisor;
+        const int side = side_of(fineness);
+        report.samples = side * side;
+        put_columns(draw_frame(wish, scene, side, picture), report.divisor, columns, picture.frame);
         report.ms = ms_since(start);
-        m_pace.took(pace, static_cast<double>(width) * height * report.samples, report.ms);
+        m_pace.took(pace, static_cast<double>(scene.width) * scene.height * report.samples,
+                    report.ms, picture.stats.geometry_ms);
     } catch (const Error& error) {
         report.error = error.what();
     } catch (const std::bad_alloc&) {
@@ -160,17 +177,13 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
 
 Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     const Clock::time_point start = Clock::now();
-    Picture picture{wish.id,
-                    fineness,
-                    Framebuffer(wish.scene->width, wish.scene->height),
-                    std::vector<PaneReport>(wish.panes.size()),
-                    {},
-                    0.0,
-                    nullptr,
-                    {}};
+    Picture picture(wish.scene->width, wish.scene->height);
+    picture.id = wish.id;
+    picture.fineness = fineness;
+    picture.panes.resize(wish.panes.size());
     for (std::size_t i = wish.panes.size(); i-- > 0;) draw_pane(wish, fineness, i, picture);
     picture.ms = ms_since(start);
-    if (!wish.pixel || fineness == Fineness::within_budget) return picture;
+    if (!wish.pixel || fineness != Fineness::full) return picture;
     try {
         Scene scene = *wish.scene;
         for (const Pane& pane : wish.panes) {
@@ -192,7 +205,7 @@ std::optional<Fineness> finer(const Wish& wish, const Picture& picture) {
     const bool is_double = std::any_of(wish.panes.begin(), wish.panes.end(), [](const Pane& pane) {
         return pane.machine.double_precision;
     });
-    if (wish.heat_map || is_double) return std::nullopt;
+    if (wish.heat_map || is_double || !wish.bits.empty()) return std::nullopt;
     return picture.fineness == Fineness::full ? Fineness::smooth : Fineness::smoothest;
 }
 

@@ -27,6 +27,7 @@ struct Wish {
     std::vector<Pane> panes;             ///< from left to right
     bool heat_map = false;               ///< |pane - double| in the colours of metrics/heat_map.hpp
     float gain = 1.0F;                   ///< of the differences
+    std::string bits;                    ///< of lab::set_stage_bits; empty: the machine's numbers
     std::optional<glm::ivec2> pixel;     ///< to be traced
     bool moving = false;                 ///< more wishes are to be expected
     RendererOptions renderer;
@@ -49,13 +50,16 @@ struct PaneReport {
 };
 
 struct Picture {
+    Picture(int width, int height) : frame(width, height) {}
+
     std::uint64_t id = 0;  ///< of the wish
     Fineness fineness = Fineness::within_budget;
-    Framebuffer frame;  ///< rgba8, the scene's size
+    bool is_last = false;  ///< of its wish: it gets no finer
+    Framebuffer frame;     ///< rgba8, the scene's size
     std::vector<PaneReport> panes;
     FrameStats stats;  ///< of the first pane that was drawn
     double ms = 0.0;   ///< of everything
-    /// Of the wish's pixel, from fineness `full` on.
+    /// Of the wish's pixel, with fineness `full` alone.
     std::shared_ptr<const PixelTrace> trace;
     std::string trace_error;
 };
@@ -73,6 +77,12 @@ class PictureMaker {
     Picture make(const Wish& wish, Fineness fineness);
 
   private:
+    /// rgba32f, for errors and chosen bits.
+    Framebuffer draw_numbers(const Wish& wish, const Scene& scene, Picture& picture);
+    /// In double precision, the same for all panes.
+    const Framebuffer& truth_of(const Wish& wish, Scene scene);
+    /// What a pane shows, rgba8, at the scene's size.
+    Framebuffer draw_frame(const Wish& wish, const Scene& scene, int side, Picture& picture);
     void draw_pane(const Wish& wish, Fineness fineness, std::size_t index, Picture& picture);
     Renderer& renderer_for(const RendererOptions& options);
 
@@ -80,6 +90,8 @@ class PictureMaker {
     Pace m_pace;
     std::unique_ptr<Renderer> m_renderer;
     RendererOptions m_options;
+    std::optional<Framebuffer> m_truth;
+    std::uint64_t m_truth_id = 0;  ///< of its wish
 };
 
 /// What comes after `picture` while nothing moves. Pictures of several samples are for machines:

@@ -29,17 +29,10 @@ std::optional<Picture> PictureThread::take() {
     return picture;
 }
 
-bool PictureThread::is_idle() {
-    const std::scoped_lock lock(m_mutex);
-    return !m_busy && !m_wish && !m_picture;
-}
-
 std::optional<Wish> PictureThread::next_wish() {
     std::unique_lock lock(m_mutex);
-    m_busy = false;
     m_changed.wait(lock, [this] { return m_stop || m_wish; });
     if (m_stop) return std::nullopt;
-    m_busy = true;
     std::optional<Wish> wish = std::move(m_wish);
     m_wish.reset();
     return wish;
@@ -64,6 +57,7 @@ void PictureThread::run() {
         while (fineness) {
             Picture picture = m_maker.make(*wish, *fineness);
             fineness = finer(*wish, picture);
+            picture.is_last = !fineness;
             deliver(std::move(picture));
             if (has_newer()) break;
         }

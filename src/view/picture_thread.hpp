@@ -23,8 +23,6 @@ class PictureThread {
     void wish(Wish wish);
     /// The newest picture, once; nothing if there is none that was not taken yet.
     std::optional<Picture> take();
-    /// Nothing is being drawn, and all was taken.
-    [[nodiscard]] bool is_idle();
 
   private:
     void run();
@@ -39,7 +37,6 @@ class PictureThread {
     std::condition_variable m_changed;
     std::optional<Wish> m_wish;
     std::optional<Picture> m_picture;
-    bool m_busy = false;
     bool m_stop = false;
     std::thread m_thread;
 };

@@ -2,6 +2,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 
@@ -82,8 +83,10 @@ void show_model(const Session& session, const Material& material) {
 }  // namespace
 
 void program_panel(Session& session, const Picture* picture) {
-    ImGui::SetNextWindowPos(ImVec2(640.0F, 120.0F), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(620.0F, 520.0F), ImGuiCond_FirstUseEver);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(display.x, 0.0F), ImGuiCond_FirstUseEver, ImVec2(1.0F, 0.0F));
+    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.7F * display.y),
+                             ImGuiCond_FirstUseEver);
     if (ImGui::Begin("program")) {
         if (picture != nullptr)
             for (const PaneReport& pane : picture->panes)

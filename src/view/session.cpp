@@ -123,6 +123,7 @@ std::optional<Wish> Session::wish(bool moving) {
     }
     wish.heat_map = state.heat_map;
     wish.gain = state.gain;
+    wish.bits = state.bits;
     wish.pixel = state.pixel;
     if (wish.pixel && (wish.pixel->x >= state.width || wish.pixel->y >= state.height))
         wish.pixel.reset();

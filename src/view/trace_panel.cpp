@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <burnish/combiner.hpp>
 
 #include "view/panels.hpp"
@@ -78,8 +79,10 @@ void fragment_tables(const TracedFragment& fragment, const PixelTrace& trace) {
 
 void trace_panel(Session& session, const Picture* picture) {
     if (!session.state.pixel) return;
-    ImGui::SetNextWindowPos(ImVec2(290.0F, 8.0F), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(820.0F, 420.0F), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowPos(ImVec2(0.0F, ImGui::GetIO().DisplaySize.y), ImGuiCond_FirstUseEver,
+                            ImVec2(0.0F, 1.0F));
+    ImGui::SetNextWindowSize(ImVec2(std::min(1010.0F, ImGui::GetIO().DisplaySize.x), 300.0F),
+                             ImGuiCond_FirstUseEver);
     bool open = true;
     const std::string title =
         fmt::format("pixel {}, {}###trace", session.state.pixel->x, session.state.pixel->y);

@@ -82,6 +82,10 @@ bool Viewer::is_moving() const {
     return m_dragged || (ImGui::IsAnyItemActive() && !ImGui::GetIO().WantTextInput);
 }
 
+bool Viewer::is_at_rest() const {
+    return m_picture && m_picture->is_last && m_picture->id == m_wish && !is_moving();
+}
+
 std::optional<std::size_t> Viewer::line_at(int x) const {
     if (!m_session.state.split) return std::nullopt;
     const std::array<float, 3>& lines = m_session.state.lines;
@@ -155,8 +159,11 @@ void Viewer::act(Action action) {
 }
 
 void Viewer::handle_key(const SDL_KeyboardEvent& event) {
-    if (ImGui::GetIO().WantTextInput) return;
-    if (const std::optional<Action> action = action_of(event)) act(*action);
+    const std::optional<Action> action = action_of(event);
+    if (!action) return;
+    // Other keys write where there is a text.
+    const bool always = action == Action::screenshot || action == Action::screenshot_window;
+    if (always || !ImGui::GetIO().WantTextInput) act(*action);
 }
 
 void Viewer::handle_button(const SDL_MouseButtonEvent& event) {
@@ -236,8 +243,14 @@ void Viewer::wait_for_events() {
     SDL_Event event;
     const int patience = m_draws > 0 ? 1 : static_cast<int>(kWatchMs);
     if (SDL_WaitEventTimeout(&event, patience) == 0) return;
-    do handle(event);
-    while (SDL_PollEvent(&event) != 0);
+    do {
+        // Whose click it is depends on what lies under the mouse, which panels find out as they
+        // are made.
+        const bool is_button =
+            event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP;
+        if (is_button) draw();
+        handle(event);
+    } while (SDL_PollEvent(&event) != 0);
 }
 
 void Viewer::look_at_files() {
@@ -270,20 +283,26 @@ void Viewer::ask_for_picture() {
     if (wished == m_wished) return;
     m_wished = wished;
     m_draws = kDrawsAfterEvent;
-    const std::string before = m_session.message;
-    if (std::optional<Wish> wish = m_session.wish(moving)) m_pictures.wish(std::move(*wish));
+    std::optional<Wish> wish = m_session.wish(moving);
+    if (!wish) return;
+    m_wish = wish->id;
+    m_pictures.wish(std::move(*wish));
 }
 
 void Viewer::take_picture() {
     std::optional<Picture> picture = m_pictures.take();
     if (!picture) return;
+    if (m_picture && m_picture->id == picture->id && picture->fineness > Fineness::full) {
+        picture->trace = std::move(m_picture->trace);
+        picture->trace_error = std::move(m_picture->trace_error);
+    }
     m_picture = std::move(picture);
     m_draws = std::max(m_draws, 1);
     if (m_picture->fineness == Fineness::within_budget)
         m_times.shown(*m_picture, now_ms());
     else
         m_times.rest();
-    if (!m_request.report || !m_pictures.is_idle() || is_moving()) return;
+    if (!m_request.report || !is_at_rest()) return;
     fmt::print("{}: {} x {}, {}", m_session.state.input.string(), m_picture->frame.width(),
                m_picture->frame.height(), fineness_name(m_picture->fineness));
     for (const PaneReport& pane : m_picture->panes)
@@ -334,8 +353,8 @@ void Viewer::run() {
             draw();
             --m_draws;
         }
-        const bool at_rest = m_draws == 0 && m_picture && m_pictures.is_idle();
-        if ((m_wants_shot || m_wants_window_shot) && at_rest) save_screenshot();
+        if ((m_wants_shot || m_wants_window_shot) && m_draws == 0 && is_at_rest())
+            save_screenshot();
     }
     if (!m_request.save_state.empty())
         save_text(view_state_text(with_absolute_input(m_session.state)), m_request.save_state);

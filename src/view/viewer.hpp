@@ -38,6 +38,8 @@ class Viewer {
     void draw();
     void save_screenshot();
     [[nodiscard]] bool is_moving() const;
+    /// The picture is the last one of what was asked for last.
+    [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] std::optional<std::size_t> line_at(int x) const;
 
     const ViewRequest& m_request;
@@ -49,6 +51,7 @@ class Viewer {
     OpenPanels m_open;
     std::optional<Picture> m_picture;
 
+    std::uint64_t m_wish = 0;         ///< number of the last wish
     std::string m_wished;             ///< what the last wish was about, as text
     std::filesystem::path m_watched;  ///< the input whose files are watched
     double m_looked_ms = 0.0;         ///< when they were looked at

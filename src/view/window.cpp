@@ -46,6 +46,7 @@ void choose_style() {
 struct Window::Handles {
     SDL_Window* window = nullptr;
     SDL_Surface* surface = nullptr;    ///< the window's own; a new one after each change of size
+    glm::ivec2 drawn{0, 0};            ///< its size
     SDL_Renderer* renderer = nullptr;  ///< of the panels, into `surface`
     SDL_Texture* font = nullptr;
     bool has_video = false;
@@ -100,9 +101,11 @@ void Window::set_title(const std::string& title) {
 void Window::follow_surface() {
     SDL_Surface* surface = SDL_GetWindowSurface(m_handles->window);
     if (surface == nullptr) fail("no pixels");
-    if (surface == m_handles->surface && m_handles->renderer != nullptr) return;
+    const glm::ivec2 drawn(surface->w, surface->h);
+    if (surface == m_handles->surface && m_handles->drawn == drawn) return;
     m_handles->drop_renderer();
     m_handles->surface = surface;
+    m_handles->drawn = drawn;
     m_handles->renderer = SDL_CreateSoftwareRenderer(surface);
     if (m_handles->renderer == nullptr) fail("no panels");
     m_handles->font = make_font_texture(m_handles->renderer);

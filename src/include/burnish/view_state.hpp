@@ -31,6 +31,7 @@ struct ViewState {
     std::string machine;                     ///< a profile; empty: the scene's machine
     std::optional<std::string> half_vector;  ///< of choose_half_vector
     std::optional<FilterOrder> filter_order;
+    std::string bits;  ///< of every stage, as `burnish trace --bits` has them; empty: the machine's
     std::optional<MaterialMipmaps> mipmaps;  ///< of every reflectance model
     bool split = false;                      ///< geforce256 | nv2a | ideal | double side by side
     std::array<float, 3> lines{0.25F, 0.5F, 0.75F};  ///< between them: ascending, 0 .. 1 of width
