@@ -1,4 +1,4 @@
-# What `cmake --install` leaves: the command, the two libraries, the public headers, and a package
+# What `cmake --install` leaves: the command, the libraries, the public headers, and a package
 # with which find_package(burnish CONFIG) gives burnish::burnish.
 
 # The tree may be moved as a whole: each binary finds its libraries relative to itself.
@@ -6,6 +6,11 @@
 file(RELATIVE_PATH libraries_from_command /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
 set_target_properties(burnish_command PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries_from_command}")
 set_target_properties(burnish burnish_io PROPERTIES INSTALL_RPATH "$ORIGIN")
+
+if(BURNISH_VIEW)
+  set_target_properties(burnish_view PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS burnish_view LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_SKIP)
+endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/burnish)
 install(TARGETS burnish EXPORT burnishTargets

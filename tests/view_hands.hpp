@@ -41,7 +41,9 @@ class Hands {
     void hold(const std::string& name) { xdotool("keydown " + name); }
     void release(const std::string& name) { xdotool("keyup " + name); }
     void type(const std::string& text) { xdotool("type --delay 20 '" + text + "'"); }
-    void move(int x, int y) { xdotool(fmt::format("mousemove --window {} {} {}", m_window, x, y)); }
+    void move(int x, int y) {
+        xdotool(fmt::format("mousemove --window {} -- {} {}", m_window, x, y));
+    }
     void click(int x, int y) {
         move(x, y);
         pause(100);
