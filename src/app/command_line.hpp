@@ -12,7 +12,8 @@
 
 #include "metrics/metrics.hpp"
 
-/// What the user asked for, as plain data; only command_line.cpp knows the parser.
+/// What the user asked for, as plain data. What a verb accepts stands in app/options;
+/// only command_line.cpp knows the parser.
 namespace burnish::app {
 
 struct CameraOptions {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "app/options/option.hpp"
+
+/// The verbs of burnish, one file each. Options go where the verb's own data is, made anew by each
+/// call and kept by what it returns.
+namespace burnish::app {
+
+Verb render_verb();
+Verb trace_verb();
+Verb bench_verb();
+Verb compare_verb();
+Verb compile_verb();
+Verb experiment_verb();
+Verb bake_verb();
+Verb info_verb();
+
+/// All of them, in the order of --help.
+std::vector<Verb> all_verbs();
+
+}  // namespace burnish::app
