@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <burnish/error.hpp>
-#include <cctype>
 
+#include "app/options/help.hpp"
 #include "app/options/verbs.hpp"
 #include "app/options/words.hpp"
 #include "core/nearest.hpp"
@@ -20,22 +20,13 @@ namespace {
     throw Error(ErrorCode::bad_option, message);
 }
 
-/// How messages call an option: by its long name; an argument by its name in small letters.
-std::string label(const Option& option) {
-    if (!option.is_argument()) return option.names.substr(option.names.find(',') + 1);
-    std::string name = option.names;
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return name;
-}
-
 /// Hands all values of an option over to it.
 CLI::callback_t taker(const Option& option) {
     return [&option](const CLI::results_t& values) {
         for (const std::string& value : values) {
             if (!option.words.empty() && !option.open_words)
-                known_word(label(option), value, option.words);
-            option.set(label(option), value);
+                known_word(option.label(), value, option.words);
+            option.set(option.label(), value);
         }
         return true;
     };
@@ -44,11 +35,11 @@ CLI::callback_t taker(const Option& option) {
 CLI::Option* add_option(CLI::App& app, const Option& option) {
     if (option.is_flag()) {
         const auto take = [&option] { option.set(option.names, ""); };
-        return app.add_flag_callback(option.names, take, option.text)
+        return app.add_flag_callback(option.names, take)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     }
-    CLI::Option* added = app.add_option(option.names, taker(option), option.text);
-    added->type_name(option.value)->required(option.required);
+    CLI::Option* added = app.add_option(option.names, taker(option));
+    added->required(option.required);
     if (option.repeated) {
         added->expected(1, CLI::detail::expected_max_vector_size);
         added->allow_extra_args(option.is_argument());
@@ -63,7 +54,6 @@ void add_verb(CLI::App& app, const Verb& verb) {
     for (const OptionGroup& group : verb.groups) {
         for (const Option& option : group.options) {
             all.emplace_back(&option, add_option(app, option));
-            all.back().second->group(group.title);
         }
     }
     for (const auto& [option, added] : all) {
@@ -71,47 +61,34 @@ void add_verb(CLI::App& app, const Verb& verb) {
         if (!option->excludes.empty()) added->excludes(app.get_option(option->excludes));
     }
     if (!verb.verbs.empty()) app.require_subcommand(1);
-    for (const Verb& part : verb.verbs) add_verb(*app.add_subcommand(part.name, part.text), part);
+    for (const Verb& part : verb.verbs) add_verb(*app.add_subcommand(part.name), part);
 }
 
-/// The verb that was given last: "mesh" of "bake mesh".
-const Verb& chosen_verb(const CLI::App& app, const Verb& verb) {
-    for (const CLI::App* given : app.get_subcommands())
-        for (const Verb& part : verb.verbs)
-            if (part.name == given->get_name()) return chosen_verb(*given, part);
-    return verb;
-}
-
-std::vector<std::string_view> verb_names(const CLI::App& app) {
-    std::vector<std::string_view> names;
-    for (const CLI::App* verb : app.get_subcommands({})) names.emplace_back(verb->get_name());
-    return names;
-}
-
-/// CLI11 speaks of unexpected arguments; for a misspelt command, say what commands there are.
-const CLI::App& require_known_verbs(const CLI::App& root, int argc, const char* const* argv) {
-    const CLI::App* app = &root;
+/// The verb that the line begins with. CLI11 speaks of unexpected arguments; for a misspelt
+/// command, say what commands there are.
+VerbPath named_verb(const Verb& root, int argc, const char* const* argv) {
+    VerbPath path{&root};
     for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-        const std::vector<std::string_view> names = verb_names(*app);
-        if (names.empty()) break;
-        if (std::find(names.begin(), names.end(), argv[i]) == names.end())
+        const std::vector<Verb>& verbs = path.back()->verbs;
+        if (verbs.empty()) break;
+        std::vector<std::string_view> names;
+        for (const Verb& verb : verbs) names.emplace_back(verb.name);
+        const auto found = std::find(names.begin(), names.end(), argv[i]);
+        if (found == names.end())
             fail(fmt::format("unknown command '{}', {}", argv[i], expected_one_of(argv[i], names)));
-        app = app->get_subcommand(argv[i]);
+        path.push_back(&verbs[static_cast<std::size_t>(found - names.begin())]);
     }
-    return *app;
+    return path;
 }
 
-/// "burnish bake mesh"
-std::string whole_name(const CLI::App& app) {
-    const CLI::App* parent = app.get_parent();
-    return parent == nullptr ? app.get_name() : whole_name(*parent) + " " + app.get_name();
-}
-
-/// The first option that `verb` does not have, with the one that was probably meant.
-void require_known_options(const CLI::App& verb, int argc, const char* const* argv) {
-    std::vector<std::string> owned;
-    for (const CLI::Option* option : verb.get_options()) {
-        for (const std::string& name : option->get_lnames()) owned.push_back("--" + name);
+/// The first option that the verb does not have, with the one that was probably meant.
+void require_known_options(const VerbPath& path, int argc, const char* const* argv) {
+    std::vector<std::string> owned{"-h", "--help"};
+    if (path.size() == 1) owned.emplace_back("--version");
+    for (const OptionGroup& group : path.back()->groups) {
+        for (const Option& option : group.options) {
+            for (const std::string& name : option.all_names()) owned.push_back(name);
+        }
     }
     const std::vector<std::string_view> names(owned.begin(), owned.end());
     for (int i = 1; i < argc; ++i) {
@@ -121,7 +98,7 @@ void require_known_options(const CLI::App& verb, int argc, const char* const* ar
         if (std::find(names.begin(), names.end(), word) != names.end()) continue;
         const std::string_view near = nearest_name(word, names);
         fail(near.empty() ? fmt::format("unknown option '{}', `{} --help` lists them", word,
-                                        whole_name(verb))
+                                        whole_name(path))
                           : fmt::format("unknown option '{}', did you mean '{}'?", word, near));
     }
 }
@@ -129,25 +106,23 @@ void require_known_options(const CLI::App& verb, int argc, const char* const* ar
 }  // namespace
 
 Command parse_command_line(int argc, const char* const* argv) {
-    const Verb burnish{
-        .name = "burnish",
-        .text = "burnish renders meshes through an emulated register-combiner machine",
-        .verbs = all_verbs()};
-    CLI::App app(burnish.text, burnish.name);
+    const Verb burnish = burnish_command();
+    CLI::App app("", burnish.name);
     app.set_version_flag("--version", "burnish " BURNISH_VERSION);
     add_verb(app, burnish);
-    const CLI::App& verb = require_known_verbs(app, argc, argv);
+    const VerbPath path = named_verb(burnish, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        return PrintText{verb.help()};
+        return PrintText{help(path)};
     } catch (const CLI::CallForVersion& version) {
         return PrintText{std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {
-        require_known_options(verb, argc, argv);
+        require_known_options(path, argc, argv);
         fail(error.what());
     }
-    return chosen_verb(app, burnish).command();
+    if (!path.back()->command) fail("expected a command, `burnish --help` lists them");
+    return path.back()->command();
 }
 
 }  // namespace burnish::app

@@ -65,18 +65,27 @@ Verb bake_anisotropy_verb() {
     const auto options = std::make_shared<BakeAnisotropyOptions>();
     Option json = json_option(options->json);
     json.text = "Print numbers as JSON";
-    return {.name = "anisotropy",
-            .text = "KHR_materials_anisotropy to our widths, and back",
-            .groups = {gltf_options(*options),
-                       width_options(*options),
-                       {"Output",
-                        {{.names = "-o,--output",
-                          .value = "DIR",
-                          .text = "Directory for what textures or a material turn into",
-                          .files = "/",
-                          .set = text_to(options->output)},
-                         json}}},
-            .command = [options] { return *options; }};
+    return {
+        .name = "anisotropy",
+        .text = "KHR_materials_anisotropy to our widths, and back",
+        .groups = {gltf_options(*options),
+                   width_options(*options),
+                   {"Output",
+                    {{.names = "-o,--output",
+                      .value = "DIR",
+                      .text = "Directory for what textures or a material turn into",
+                      .files = "/",
+                      .set = text_to(options->output)},
+                     json}}},
+        .examples = {{"Our widths of glTF's numbers",
+                      "burnish bake anisotropy --roughness 0.5 --strength 0.6"},
+                     {"glTF's numbers of our widths",
+                      "burnish bake anisotropy --alpha-x 0.1 --alpha-y 0.4"},
+                     {"The same for a script, the tangent turned by 30 degrees",
+                      "burnish bake anisotropy --alpha-x 0.1 --alpha-y 0.4 --direction 30 --json"},
+                     {"A material's maps as textures of glTF",
+                      "burnish bake anisotropy --material meshes/materials/weave.toml -o gltf"}},
+        .command = [options] { return *options; }};
 }
 
 }  // namespace burnish::app

@@ -19,6 +19,13 @@ Verb bake_brushed_verb() {
                           .files = "/",
                           .required = true,
                           .set = text_to(options->output)}}}},
+            .examples = {{"Four maps in a directory that is there",
+                          "mkdir -p steel && burnish bake brushed -o steel"},
+                         {"Files that begin with a name: fine-normal.png ...",
+                          "burnish bake brushed --seed 7 -o fine"},
+                         {"Smaller maps", "burnish bake brushed --size 128 -o small"},
+                         {"Larger ones with other scratches",
+                          "burnish bake brushed --size 1024 --seed 3 -o large"}},
             .command = [options] { return *options; }};
 }
 

@@ -22,6 +22,14 @@ Verb bake_material_verb() {
                        {"Generator",
                         generator_options(options->seed, options->size, kMaxGeneratedSize, "")},
                        {"Output", {directory_option(options->output)}}},
+            .examples = {{"A lathed surface: maps, material file, true numbers",
+                          "burnish bake material lathe -o lathe"},
+                         {"Smaller maps", "burnish bake material weave --size 128 -o weave"},
+                         {"The same material with other marks",
+                          "burnish bake material corrosion --seed 2 --size 256 -o corrosion"},
+                         {"A material of one's own on a mesh",
+                          "burnish bake material orbital --size 256 -o orbital && burnish render "
+                          "meshes/sphere.ply --material orbital/material.toml -o orbital.png"}},
             .command = [options] { return *options; }};
 }
 

@@ -58,6 +58,15 @@ Verb bake_mips_verb() {
                                                        kMaxGeneratedSize, "--set")},
                        level_options(*options),
                        {"Output", {directory_option(options->output)}}},
+            .examples =
+                {{"Levels that keep the moments of the lobes",
+                  "burnish bake mips meshes/materials/weave.toml -o weave-mips"},
+                 {"Toksvig's method on a generated set",
+                  "burnish bake mips --set cross_hatch --size 128 --method toksvig -o toksvig"},
+                 {"LEAN mapping with moments in 16 bits",
+                  "burnish bake mips --set sunburst --size 128 --method lean --bits 16 -o lean"},
+                 {"Plain averages, to compare with",
+                  "burnish bake mips --set cross_hatch --size 128 --method box -o box"}},
             .command = [options] {
                 if (options->material.empty() && options->set.empty())
                     throw Error(ErrorCode::bad_option,

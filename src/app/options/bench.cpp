@@ -26,6 +26,13 @@ Verb bench_verb() {
     return {.name = "bench",
             .text = "Times whole frames of a scene",
             .groups = with_picture_options(options->picture, {measured}),
+            .examples = {{"Time of a frame: median and spread",
+                          "burnish bench meshes/brushed.toml --size 640x360"},
+                         {"Three frames on one thread, with the time of every stage",
+                          "burnish bench meshes/brushed.toml --frames 3 --threads 1 -v"},
+                         {"The same numbers for a script",
+                          "burnish bench meshes/ward.toml --size 640x360 --frames 5 --json"},
+                         {"Would 64 workers be busy?", "burnish bench meshes/knot.obj --balance"}},
             .command = [options] { return *options; }};
 }
 

@@ -133,6 +133,15 @@ Verb compare_verb() {
                    measure_options(*options),
                    difference_options(*options),
                    {"Work", {threads_option(options->threads), json_option(options->json), quiet}}},
+        .examples =
+            {{"Every measure of two pictures", "burnish compare picture.png reference.png"},
+             {"Exit code 1 if the root mean square error or FLIP is too large",
+              "burnish compare picture.png reference.png --threshold rmse=0.05,flip=0.1 --quiet"},
+             {"Where they differ, eight times as strong",
+              "burnish compare picture.png reference.png --difference difference.png --gain 8"},
+             {"Two measures of what the reference covers, as JSON",
+              "burnish compare picture.png reference.png --metric psnr,ssim --mask covered "
+              "--json"}},
         .command = [options] { return *options; }};
 }
 

@@ -65,6 +65,13 @@ Verb compile_verb() {
             .groups = {program_options(*program),
                        model_options(*model),
                        {"Output", {json_option(program->json)}}},
+            .examples = {{"Checks a program and prints its stages", "burnish compile program.rc"},
+                         {"A program with its texture shader, as JSON",
+                          "burnish compile program.rc shader.ts --json"},
+                         {"The program of a model on the chip of 1999",
+                          "burnish compile --model abp_modified --machine geforce256"},
+                         {"What the model of a material needs on the chip of 2001",
+                          "burnish compile --material meshes/materials/hair.toml --machine nv2a"}},
             .command = [program, model]() -> Command {
                 if (!program->combiners.empty()) return *program;
                 model->json = program->json;

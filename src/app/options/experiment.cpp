@@ -81,6 +81,14 @@ Verb experiment_verb() {
                       .set = shard_to(*options)},
                      threads_option(options->threads),
                      quiet_option(options->quiet)}}},
+        .examples = {{"An experiment of one's own", "burnish experiment tiny.toml -o tiny"},
+                     {"The first half of its cells, as on the first of two computers",
+                      "burnish experiment tiny.toml --shard 1/2 -o half-1"},
+                     {"The second half, and both joined",
+                      "burnish experiment tiny.toml --shard 2/2 -o half-2 && burnish experiment "
+                      "merge half-1 half-2 -o whole"},
+                     {"A twelfth of a built-in experiment's quick form",
+                      "burnish experiment e6 --quick --shard 1/12 -o e6-1"}},
         .command = [options, words] { return what_to_run(*options, *words); }};
 }
 

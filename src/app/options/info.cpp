@@ -10,6 +10,11 @@ Verb info_verb() {
     return {.name = "info",
             .text = "Version, instruction sets, profiles, formats",
             .groups = {{"Output", {json_option(options->json)}}},
+            .examples = {{"What this build and this CPU can do", "burnish info"},
+                         {"The same for a script", "burnish info --json"},
+                         {"The names of the reflectance models", "burnish info | grep models"},
+                         {"What is used when another instruction set is asked for",
+                          "BURNISH_ISA=reference burnish info"}},
             .command = [options] { return *options; }};
 }
 

@@ -31,6 +31,12 @@ struct Option {
     std::string excludes{};  ///< an option that must not
     Set set{};               ///< called for each value once all words are read
 
+    /// "-o" and "--output"
+    [[nodiscard]] std::vector<std::string> all_names() const;
+    /// How messages call it: by its long name; an argument by its name in small letters.
+    [[nodiscard]] std::string label() const;
+    /// Extensions in `files`.
+    [[nodiscard]] std::vector<std::string> extensions() const;
     [[nodiscard]] bool is_argument() const { return names.front() != '-'; }
     [[nodiscard]] bool is_flag() const { return value.empty() && !is_argument(); }
 };
@@ -40,13 +46,29 @@ struct OptionGroup {
     std::vector<Option> options;
 };
 
+/// A command line to paste, from the top of the source tree where it names meshes/...
+struct Example {
+    std::string text;
+    std::string line;
+};
+
 struct Verb {
     std::string name;
     std::string text;
     std::vector<OptionGroup> groups{};
     std::vector<Verb> verbs{};  ///< of "bake": each has options, it has none
+    std::vector<Example> examples{};
     /// What to do once every option is set. Throws Error{bad_option} where something is missing.
     std::function<Command()> command{};
 };
+
+/// The verbs from "burnish" to one of its own: burnish, bake, mesh.
+using VerbPath = std::vector<const Verb*>;
+
+/// "burnish bake mesh"
+std::string whole_name(const VerbPath& path);
+
+/// Every verb that has options of its own, in the order of --help.
+std::vector<VerbPath> working_verbs(const Verb& root);
 
 }  // namespace burnish::app

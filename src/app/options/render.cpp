@@ -51,6 +51,17 @@ Verb render_verb() {
     return {.name = "render",
             .text = "A scene or mesh file to an image",
             .groups = with_picture_options(options->picture, {output_options(*options)}),
+            .examples =
+                {{"The demonstration picture as PNG",
+                  "burnish render meshes/brushed.toml -o steel.png"},
+                 {"A bare mesh seen from above, nine samples per pixel",
+                  "burnish render meshes/knot.obj --camera-elevation 30 --samples 9 -o knot.png"},
+                 {"Several materials as the chip of 2001 draws them, and what was counted",
+                  "burnish render meshes/ward.toml --machine nv2a --multipass --stats text "
+                  "-o ward.png"},
+                 {"One turn about a cube in 12 pictures",
+                  "burnish render meshes/cube.obj --size 320x240 --turntable 12 -o "
+                  "'turn-{frame:4}.png'"}},
             .command = [options] { return *options; }};
 }
 

@@ -63,6 +63,15 @@ Verb trace_verb() {
         .text = "Every register after every stage at one pixel, or the picture's error by stage",
         .groups = with_picture_options(options->picture,
                                        {pixel_options(*options), by_stage_options(*options)}),
+        .examples =
+            {{"How the middle pixel got its colour",
+              "burnish trace meshes/brushed.toml --pixel 640,360"},
+             {"Another pixel, on the chip of 2001, as JSON",
+              "burnish trace meshes/knot.obj --machine nv2a --multipass --pixel 640,300 --json"},
+             {"Which stages the picture's error comes from",
+              "burnish trace meshes/knot.obj --machine nv2a --size 160x120 --by-stage"},
+             {"The same of one pixel with ten bits everywhere",
+              "burnish trace meshes/knot.obj --size 160x120 --pixel 80,42 --by-stage --bits 10"}},
         .command = [options] {
             if (!options->pixel && !options->by_stage)
                 throw Error(ErrorCode::bad_option, "trace: expected --pixel X,Y or --by-stage");

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "app/options/option.hpp"
 
 /// The verbs of burnish, one file each. Options go where the verb's own data is, made anew by each
@@ -17,7 +15,7 @@ Verb experiment_verb();
 Verb bake_verb();
 Verb info_verb();
 
-/// All of them, in the order of --help.
-std::vector<Verb> all_verbs();
+/// The command itself, with all of them.
+Verb burnish_command();
 
 }  // namespace burnish::app
