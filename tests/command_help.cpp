@@ -134,5 +134,56 @@ TEST_F(CommandHelp, ExamplesRunAsPasted) {
     }
 }
 
+TEST_F(CommandHelp, MisspeltWordsAreRecognised) {
+    write_scene("ball.toml");
+    const std::string render = "render ball.toml ";
+    expect_failure("experimnt e1 -o x", 2, "did you mean 'experiment'?");
+    expect_failure("--versoin", 2, "did you mean '--version'?");
+    expect_failure("bake --hlp", 2, "did you mean '--help'?");
+    expect_failure("bake mips --sett lathe -o x", 2, "did you mean '--set'?");
+    expect_failure("info --frobnicate", 2, "unknown option '--frobnicate', `burnish info --help`");
+    expect_failure("bake mesh -o x.ply --frobnicate", 2, "`burnish bake mesh --help` lists them");
+    expect_failure(render + "--machine ideel", 2, "did you mean 'ideal'?");
+    expect_failure(render + "--isa refrence", 2, "did you mean 'reference'?");
+    expect_failure(render + "--stats jsn", 2, "did you mean 'json'?");
+    expect_failure(render + "--aov norml", 2, "did you mean 'normal'?");
+    expect_failure(render + "--half-vector vertx", 2, "did you mean 'vertex'?");
+    expect_failure(render + "--filter-order befor", 2, "did you mean 'before'?");
+    expect_failure(render + "--mipmaps momnts:8", 2, "did you mean 'moments'?");
+    expect_failure("trace ball.toml --by-stage --rounding nearst", 2, "did you mean 'nearest'?");
+    expect_failure("trace ball.toml --by-stage --bits combinrs=9", 2, "did you mean 'combiners'?");
+    expect_failure("bake mips --set lath -o x", 2, "did you mean 'lathe'?");
+    expect_failure("bake mips --set lathe --method toksvg -o x", 2, "did you mean 'toksvig'?");
+    expect_failure("compare a.png b.png --mask coverd", 2, "did you mean 'covered'?");
+    expect_failure("compare a.png b.png --encoding sgrb", 2, "did you mean 'srgb'?");
+    expect_failure("experiment e7_ege -o x", 2, "did you mean 'e7_edge'?");
+}
+
+TEST_F(CommandHelp, MisspeltFilesAreRecognised) {
+    write_scene("ball.toml");
+    write(path("knot.obj"), "");
+    write(path("picture.png"), "");
+    write(path("program.rc"), "");
+    write(path("a.png"), "");
+    std::filesystem::create_directory(path("sub"));
+    write(path("sub/steel.toml"), "");
+    expect_failure("render bal.toml", 3,
+                   "bal.toml: No such file or directory, did you mean 'ball.toml'?");
+    expect_failure("render knto.obj", 3, "did you mean 'knot.obj'?");
+    expect_failure("render knot.ob", 3, "did you mean 'knot.obj'?");
+    expect_failure("compare pictures.png picture.png", 3, "did you mean 'picture.png'?");
+    expect_failure("compile progam.rc", 3, "did you mean 'program.rc'?");
+    expect_failure("compile --material sub/steal.toml", 3, "did you mean 'sub/steel.toml'?");
+    write(path("with.toml"), "schema = 1\n[[objects]]\nmesh = \"knott.obj\"\n");
+    expect_failure("render with.toml", 3, "with.toml:3: ");
+    expect_failure("render with.toml", 3, "did you mean 'knot.obj'?");
+    // Neither near nor there, and a letter that is another file.
+    for (const char* name : {"b.png", "else.png", "nowhere/picture.png"}) {
+        const Result result = run(std::string("compare ") + name + " picture.png");
+        EXPECT_EQ(result.code, 3);
+        EXPECT_EQ(result.err.find("did you mean"), std::string::npos) << result.err;
+    }
+}
+
 }  // namespace
 }  // namespace burnish

@@ -20,13 +20,26 @@ namespace {
     throw Error(ErrorCode::bad_option, message);
 }
 
+/// What `error` says, with the word that `text` was probably meant to be.
+Error with_near_word(const Error& error, const std::string& text, const Option& option) {
+    const std::string said = error.what();
+    const std::string_view near = nearest_name(text, option.words);
+    if (near.empty() || near == text || said.find("did you mean") != std::string::npos)
+        return error;
+    return {error.code(), fmt::format("{}, did you mean '{}'?", said, near)};
+}
+
 /// Hands all values of an option over to it.
 CLI::callback_t taker(const Option& option) {
     return [&option](const CLI::results_t& values) {
         for (const std::string& value : values) {
             if (!option.words.empty() && !option.open_words)
                 known_word(option.label(), value, option.words);
-            option.set(option.label(), value);
+            try {
+                option.set(option.label(), value);
+            } catch (const Error& error) {
+                throw with_near_word(error, value, option);
+            }
         }
         return true;
     };

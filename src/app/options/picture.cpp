@@ -147,6 +147,12 @@ OptionGroup view_options(PictureOptions& picture) {
               }}}};
 }
 
+std::vector<std::string_view> isa_names() {
+    std::vector<std::string_view> names;
+    for (const IsaInfo& isa : instruction_sets()) names.push_back(isa.name);
+    return names;
+}
+
 OptionGroup work_options(PictureOptions& picture) {
     return {"Work",
             {threads_option(picture.threads),
@@ -154,6 +160,7 @@ OptionGroup work_options(PictureOptions& picture) {
               .value = "NAME",
               .text = "Instruction set; `burnish info` lists them",
               .normal = "the widest",
+              .words = isa_names(),
               .set = text_to(picture.isa)},
              quiet_option(picture.quiet),
              {.names = "-v,--verbose",

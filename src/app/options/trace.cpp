@@ -44,6 +44,7 @@ OptionGroup by_stage_options(TraceOptions& options) {
               .value = "HOW",
               .text = "With --by-stage: nearest, truncate, shift8 or stochastic",
               .normal = "the machine's",
+              .words = {"nearest", "truncate", "shift8", "stochastic"},
               .needs = "--by-stage",
               .set = text_to(options.rounding)},
              {.names = "-o,--output",
