@@ -53,6 +53,16 @@ class CommandHelp : public Command {
         return verbs;
     }
 
+    /// Whether `line` needs one of the two programs that read manual pages, and that is not there.
+    static bool missing_program(const std::string& line) {
+        for (const std::string name : {"man", "groff"}) {
+            if (line.find("| " + name) != std::string::npos &&
+                std::system(("command -v " + name + " >/dev/null").c_str()) != 0)
+                return true;
+        }
+        return false;
+    }
+
     /// The files that examples name.
     void prepare() {
         std::filesystem::create_symlink(BURNISH_SOURCE_DIR "/meshes", path("meshes"));
@@ -126,12 +136,45 @@ TEST_F(CommandHelp, ExamplesRunAsPasted) {
 #ifdef BURNISH_SANITIZED
             if (std::exchange(last, verb) == verb) continue;  // one of each verb
 #endif
-            const std::string pasted = "cd '" + directory().string() +
-                                       "' && PATH=\"$PWD/bin:$PATH\" && { " + line +
-                                       "; } >'log' 2>&1";
-            EXPECT_EQ(std::system(pasted.c_str()), 0) << line << '\n' << read(path("log"));
+            if (missing_program(line)) continue;
+            write(path("pasted"), "cd \"$HOME\"\n" + line + "\n");
+            const std::string shell = "HOME='" + directory().string() + "' PATH='" +
+                                      directory().string() + "/bin':\"$PATH\" bash -o pipefail '" +
+                                      path("pasted").string() + "' >'" + path("log").string() +
+                                      "' 2>&1";
+            EXPECT_EQ(std::system(shell.c_str()), 0) << line << '\n' << read(path("log"));
         }
     }
+}
+
+TEST_F(CommandHelp, TheManualHasEveryVerbAndOption) {
+    const std::string page = run("man").out;
+    for (const char* section : {"NAME", "SYNOPSIS", "DESCRIPTION", "COMMANDS", "EXIT STATUS",
+                                "ENVIRONMENT", "FILES", "SEE ALSO"})
+        EXPECT_SAYS(page, std::string("\n.SH ") + section + "\n");
+    for (const std::string& verb : working_verbs()) {
+        EXPECT_SAYS(page, "\n.SS burnish " + verb + "\n");
+        for (const std::string& line : lines_of(help(verb))) {
+            const std::size_t at = line.find("--");
+            if (at != 6 || !line.starts_with("  ")) continue;
+            std::string name = "\\fB";  // where the page has it: in bold, with minus signs
+            for (const char c : line.substr(at, line.find_first_of(" \n", at) - at))
+                name += c == '-' ? std::string("\\-") : std::string(1, c);
+            if (name == "\\fB\\-\\-help") continue;
+            EXPECT_SAYS(page, name + "\\fR");
+        }
+    }
+    EXPECT_SAYS(page, "BURNISH_ISA");
+}
+
+TEST_F(CommandHelp, GroffLikesTheManual) {
+    if (std::system("command -v groff >/dev/null") != 0) GTEST_SKIP() << "no groff";
+    write(path("burnish.1"), run("man").out);
+    const std::string line = "groff -ww -man -Tutf8 '" + path("burnish.1").string() + "' >'" +
+                             path("page").string() + "' 2>'" + path("said").string() + "'";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+    EXPECT_EQ(read(path("said")), "");
+    EXPECT_SAYS(read(path("page")), "meshes/brushed.toml");
 }
 
 TEST_F(CommandHelp, MisspeltWordsAreRecognised) {

@@ -40,6 +40,12 @@ std::string Option::label() const {
     return name;
 }
 
+bool Option::goes_on() const {
+    return std::any_of(words.begin(), words.end(), [](std::string_view word) {
+        return word.ends_with(':') || word.ends_with('=');
+    });
+}
+
 std::vector<std::string> Option::extensions() const {
     return files == "/" || files == "*" ? std::vector<std::string>{} : split(files, ' ');
 }

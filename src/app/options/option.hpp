@@ -35,6 +35,8 @@ struct Option {
     [[nodiscard]] std::vector<std::string> all_names() const;
     /// How messages call it: by its long name; an argument by its name in small letters.
     [[nodiscard]] std::string label() const;
+    /// Whether what a shell completes may go on: "cube:", "rmse=".
+    [[nodiscard]] bool goes_on() const;
     /// Extensions in `files`.
     [[nodiscard]] std::vector<std::string> extensions() const;
     [[nodiscard]] bool is_argument() const { return names.front() != '-'; }

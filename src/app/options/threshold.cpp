@@ -15,6 +15,17 @@ Threshold parse_threshold(const std::string& option, const std::string& text) {
             parse_numbers<double>(option + " " + name, number, 1, 1).front()};
 }
 
+/// "rmse="
+std::vector<std::string_view> limit_words() {
+    static const std::vector<std::string> kOwned = [] {
+        std::vector<std::string> words;
+        for (const std::string_view name : metrics::metric_names())
+            words.push_back(std::string(name) + "=");
+        return words;
+    }();
+    return {kOwned.begin(), kOwned.end()};
+}
+
 }  // namespace
 
 Option threshold_option(std::vector<Threshold>& thresholds) {
@@ -23,7 +34,7 @@ Option threshold_option(std::vector<Threshold>& thresholds) {
         .value = "NAME=VALUE",
         .text =
             "Exit code 1 if a metric is worse; of bias and energy_ratio, the distance from 0 and 1",
-        .words = metrics::metric_names(),
+        .words = limit_words(),
         .open_words = true,
         .repeated = true,
         .separator = ',',

@@ -14,6 +14,8 @@ Verb compile_verb();
 Verb experiment_verb();
 Verb bake_verb();
 Verb info_verb();
+Verb completion_verb();
+Verb man_verb();
 
 /// The command itself, with all of them.
 Verb burnish_command();
