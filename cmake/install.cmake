@@ -1,5 +1,5 @@
-# What `cmake --install` leaves: the command, the libraries, the public headers, and a package
-# with which find_package(burnish CONFIG) gives burnish::burnish.
+# What `cmake --install` leaves: the command with its manual page and completions, the libraries,
+# the public headers, and a package with which find_package(burnish CONFIG) gives burnish::burnish.
 
 # The tree may be moved as a whole: each binary finds its libraries relative to itself.
 # libburnish opens libburnish_io by name, so the path counts for that, too.
@@ -21,6 +21,11 @@ install(TARGETS burnish_io burnish_command
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_SKIP)
 install(DIRECTORY src/include/burnish DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.hpp")
+install(FILES ${PROJECT_BINARY_DIR}/share/burnish.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${PROJECT_BINARY_DIR}/share/burnish.bash RENAME burnish
+  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
+install(FILES ${PROJECT_BINARY_DIR}/share/_burnish
+  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/site-functions)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT burnishTargets NAMESPACE burnish:: DESTINATION ${package_dir})

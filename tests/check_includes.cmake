@@ -36,7 +36,10 @@ rule("^src/(app|core|geometry|image|include|machine|mesh|models|program|raster|s
 rule("^src/io/([^i]|i[^m])" DENY "<OpenImageIO/" "only src/io/image_io.cpp may")
 rule("^src/io/image_io\\.cpp" DENY "<fmt/" "OpenImageIO bundles another fmt")
 rule("^(src|tests)/" DENY "<xsimd/" "only the per-ISA build of kernels/ may")
-rule("^src/([^a]|app/.*\\.hpp)" DENY "<CLI/" "only the sources of the command may")
+rule("^src/([^a]|app/([^c]|c[^o]|co[^m]|com[^m]))" DENY "<CLI/" "only src/app/command_line.cpp may")
+rule("^src/app/.*\\.hpp" DENY "<CLI/" "only src/app/command_line.cpp may")
+rule("^src/app/options/" DENY "\"(lab/|app/([^co]|c[^o]|o[^p]|co[^m]|com[^m]))"
+  "options are data; what verbs do with it stands beside them")
 rule("^src/([^c]|core/[^p])" DENY "<(tbb|oneapi)/" "threads sit behind core/parallel.hpp")
 
 # What users include builds with the standard library and GLM alone.

@@ -13,6 +13,12 @@ file(REMOVE_RECURSE ${work})
 file(MAKE_DIRECTORY ${work})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
 file(RENAME ${work}/installed ${prefix})
+foreach(file man/man1/burnish.1 bash-completion/completions/burnish zsh/site-functions/_burnish)
+  file(SIZE ${prefix}/share/${file} size)
+  if(size LESS 1000)
+    message(FATAL_ERROR "share/${file}: ${size} bytes")
+  endif()
+endforeach()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${work}/consumer -G ${GENERATOR}
     -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS}

@@ -354,5 +354,15 @@ TEST_F(Command, EveryProfileDrawsTheDefaultScene) {
     EXPECT_TRUE(read(path("nv2a.png")) != read(path("ideal.png")));
 }
 
+TEST_F(Command, ViewSaysWhatItLacks) {
+    write_scene("s.toml");
+    expect_failure("view", 2, "expected INPUT or --load-state FILE");
+    expect_failure("view nowhere.toml", 3, "nowhere.toml");
+    const Result blind = run("view s.toml", "env -u DISPLAY -u WAYLAND_DISPLAY -u SDL_VIDEODRIVER");
+    EXPECT_EQ(blind.code, 3);
+    EXPECT_TRUE(blind.err.starts_with("burnish: view: ")) << blind.err;
+    EXPECT_EQ(blind.err.find('\n'), blind.err.size() - 1) << blind.err;
+}
+
 }  // namespace
 }  // namespace burnish

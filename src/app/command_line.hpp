@@ -12,7 +12,8 @@
 
 #include "metrics/metrics.hpp"
 
-/// What the user asked for, as plain data; only command_line.cpp knows the parser.
+/// What the user asked for, as plain data. What a verb accepts stands in app/options;
+/// only command_line.cpp knows the parser.
 namespace burnish::app {
 
 struct CameraOptions {
@@ -174,10 +175,10 @@ struct PrintText {
     std::string text;
 };
 
-using Command = std::variant<PrintText, RenderOptions, ViewOptions, TraceOptions, BenchOptions, CompareOptions,
-                             CompileOptions, CompileModelOptions, InfoOptions, BakeBrushedOptions,
-                             BakeMaterialOptions, BakeMipsOptions, BakeAnisotropyOptions,
-                             BakeMeshOptions, ExperimentOptions>;
+using Command = std::variant<PrintText, RenderOptions, ViewOptions, TraceOptions, BenchOptions,
+                             CompareOptions, CompileOptions, CompileModelOptions, InfoOptions,
+                             BakeBrushedOptions, BakeMaterialOptions, BakeMipsOptions,
+                             BakeAnisotropyOptions, BakeMeshOptions, ExperimentOptions>;
 
 /// Throws Error{bad_option} for anything that is not a command of burnish.
 Command parse_command_line(int argc, const char* const* argv);

@@ -6,13 +6,16 @@
 #include <burnish/error.hpp>
 #include <fstream>
 
+#include "core/near_file.hpp"
+
 namespace burnish {
 
 std::string read_text(const std::filesystem::path& path) {
     constexpr std::size_t kLargest = 16 << 20;
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
-        throw Error(ErrorCode::io, fmt::format("{}: cannot be opened for reading", path.string()));
+        throw Error(ErrorCode::io, fmt::format("{}: cannot be opened for reading{}", path.string(),
+                                               near_file(path)));
     std::string text;
     std::array<char, 1 << 16> chunk;
     do {

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/near_file.hpp"
 #include "io/atomic_file.hpp"
 #include "io/png_check.hpp"
 
@@ -37,7 +38,7 @@ void require_readable_file(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, failure))
         throw Error(ErrorCode::io, path.string() + ": is a directory, expected an image");
     if (access(path.c_str(), R_OK) != 0)
-        throw Error(ErrorCode::io, path.string() + ": " + std::strerror(errno));
+        throw Error(ErrorCode::io, path.string() + ": " + std::strerror(errno) + near_file(path));
     if (std::filesystem::file_size(path, failure) == 0 && !failure)
         throw Error(ErrorCode::bad_input, path.string() + ": empty file, expected an image");
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <new>
 
+#include "core/near_file.hpp"
 #include "io/mesh_build.hpp"
 #include "io/mesh_soup.hpp"
 #include "io/mesh_text.hpp"
@@ -24,7 +25,8 @@ std::string read_bytes(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))
-        throw Error(ErrorCode::io, fmt::format("{}: no such file", path.string()));
+        throw Error(ErrorCode::io,
+                    fmt::format("{}: no such file{}", path.string(), near_file(path)));
     if (!fs::is_regular_file(status))
         throw Error(ErrorCode::io, fmt::format("{}: not a regular file", path.string()));
     const std::uintmax_t size = fs::file_size(path, error);

@@ -10,6 +10,8 @@
 #include <optional>
 #include <string_view>
 
+#include "core/near_file.hpp"
+
 namespace burnish {
 namespace {
 
@@ -20,7 +22,8 @@ std::string read_text(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, failure))
         throw Error(ErrorCode::io, path.string() + ": is a directory, expected a scene file");
     const std::uintmax_t size = std::filesystem::file_size(path, failure);
-    if (failure) throw Error(ErrorCode::io, path.string() + ": " + failure.message());
+    if (failure)
+        throw Error(ErrorCode::io, path.string() + ": " + failure.message() + near_file(path));
     if (size > kLargestScene)
         throw Error(ErrorCode::limit, fmt::format("{}: {} bytes, expected a scene of at most {}",
                                                   path.string(), size, kLargestScene));

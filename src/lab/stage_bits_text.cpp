@@ -8,6 +8,9 @@
 #include <charconv>
 #include <optional>
 #include <utility>
+#include <vector>
+
+#include "core/nearest.hpp"
 
 namespace burnish::lab {
 
@@ -69,10 +72,16 @@ void set_stage_bits(StageBits& bits, std::string_view key, std::string_view valu
     const std::optional<int> number =
         key.starts_with(kOne) ? whole_number(key.substr(kOne.size())) : std::nullopt;
     if (!number || *number < 0 || *number >= static_cast<int>(kMostStages)) {
-        std::string names;
-        for (const NamedStage& stage : kStages) names += fmt::format("{}, ", stage.name);
-        fail(fmt::format("bits of '{}', expected {}stage0 .. stage{} or rounding", key, names,
-                         kMostStages - 1));
+        std::string listed;
+        std::vector<std::string_view> names{"rounding"};
+        for (const NamedStage& stage : kStages) {
+            listed += fmt::format("{}, ", stage.name);
+            names.push_back(stage.name);
+        }
+        const std::string_view near = nearest_name(key, names);
+        fail(fmt::format("bits of '{}', expected {}stage0 .. stage{} or rounding{}", key, listed,
+                         kMostStages - 1,
+                         near.empty() ? "" : fmt::format(", did you mean '{}'?", near)));
     }
     const auto at = static_cast<std::size_t>(*number);
     while (bits.combiner_stages.size() <= at) bits.combiner_stages.push_back(bits.combiners);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 
 #include "view/gui_draw.hpp"
@@ -15,6 +16,19 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what) {
     throw Error(ErrorCode::io, "view: " + what + ": " + SDL_GetError());
+}
+
+/// The one that the environment speaks of: left alone, SDL tries them all, and ends with one that
+/// shows nothing to anybody. Throws Error{io} where there is none.
+void choose_driver() {
+    if (std::getenv("SDL_VIDEODRIVER") != nullptr) return;
+    const char* driver = std::getenv("DISPLAY") != nullptr           ? "x11"
+                         : std::getenv("WAYLAND_DISPLAY") != nullptr ? "wayland"
+                                                                     : nullptr;
+    if (driver == nullptr)
+        throw Error(ErrorCode::io,
+                    "view: no display, expected DISPLAY or WAYLAND_DISPLAY in the environment");
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, driver);
 }
 
 /// Bytes r, g, b, a to the screen's 0xXXRRGGBB.
@@ -72,6 +86,7 @@ Window::Window(const std::string& title, const glm::ivec2& size)
     : m_handles(std::make_unique<Handles>()) {
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    choose_driver();
     if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("no display");
     m_handles->has_video = true;
     m_handles->window =
