@@ -297,7 +297,7 @@ void Viewer::take_picture() {
         picture->trace_error = std::move(m_picture->trace_error);
     }
     m_picture = std::move(picture);
-    m_draws = std::max(m_draws, 1);
+    m_draws = std::max(m_draws, m_picture->is_last ? kDrawsAfterEvent : 1);
     if (m_picture->fineness == Fineness::within_budget)
         m_times.shown(*m_picture, now_ms());
     else
