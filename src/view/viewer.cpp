@@ -250,6 +250,9 @@ void Viewer::wait_for_events() {
             event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP;
         if (is_button) draw();
         handle(event);
+        // Dear ImGui sees what is pressed as it makes panels: a key that came and went between two
+        // frames would be lost.
+        if (event.type == SDL_KEYDOWN && ImGui::GetIO().WantTextInput) draw();
     } while (SDL_PollEvent(&event) != 0);
 }
 
