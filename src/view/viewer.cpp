@@ -252,7 +252,8 @@ void Viewer::wait_for_events() {
         handle(event);
         // Dear ImGui sees what is pressed as it makes panels: a key that came and went between two
         // frames would be lost.
-        if (event.type == SDL_KEYDOWN && ImGui::GetIO().WantTextInput) draw();
+        const bool is_key = event.type == SDL_KEYDOWN || event.type == SDL_KEYUP;
+        if (is_key && ImGui::GetIO().WantTextInput) draw();
     } while (SDL_PollEvent(&event) != 0);
 }
 
