@@ -26,3 +26,24 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${work}/consumer -G ${GENERA
 run(${CMAKE_COMMAND} --build ${work}/consumer)
 run(${prefix}/${BINDIR}/burnish render ${SOURCE}/tests/consumer/scene.toml -o ${work}/command.png)
 run(${work}/consumer/consumer ${SOURCE}/tests/consumer/octahedron.obj ${work}/command.png)
+
+# The README's program and its build file, as they stand there.
+file(READ ${SOURCE}/README.md readme)
+string(REGEX MATCH "```cpp\n([^`]*)```" ignored "${readme}")
+set(program "${CMAKE_MATCH_1}")
+string(REGEX MATCH "^(#include[^\n]*\n)+" includes "${program}")
+string(REPLACE "${includes}" "" body "${program}")
+string(REGEX MATCH "```cmake\n([^`]*)```" ignored "${readme}")
+file(WRITE ${work}/readme/CMakeLists.txt
+  "cmake_minimum_required(VERSION 3.25)\nproject(readme CXX)\nadd_executable(program main.cpp)\n"
+  "${CMAKE_MATCH_1}")
+file(WRITE ${work}/readme/main.cpp "${includes}int main() {\n${body}}\n")
+file(COPY ${SOURCE}/meshes DESTINATION ${work}/readme)
+run(${CMAKE_COMMAND} -S ${work}/readme -B ${work}/readme/build -G ${GENERATOR}
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS}
+    -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${work}/readme/build)
+run(${CMAKE_COMMAND} -E chdir ${work}/readme ${work}/readme/build/program)
+if(NOT EXISTS ${work}/readme/knot.png)
+  message(FATAL_ERROR "the README's program wrote no picture")
+endif()
