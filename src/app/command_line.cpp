@@ -250,6 +250,11 @@ void add_picture_options(CLI::App& verb, PictureOptions& picture) {
             "normalize, mag, toksvig, clean, lean, moments, moments_unweighted; their moments "
             "stored in 8, 16 or 32 bits")
         ->type_name("METHOD[:BITS]");
+    verb.add_option("--max-anisotropy", picture.max_anisotropy,
+                    "Most probes along the longer axis of what a pixel covers, 1 .. 16, of every "
+                    "reflectance model with mipmaps")
+        ->check(CLI::Range(1, Sampler::kMostProbes))
+        ->type_name("N");
     verb.add_flag("--multipass", picture.multipass,
                   "Split programs that need more than the machine has into passes");
     verb.add_option_function<std::string>(

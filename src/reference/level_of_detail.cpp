@@ -56,8 +56,8 @@ LevelsSeen levels_at(double lambda, int levels, const Sampler& sampler) {
 }  // namespace
 
 LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
-                       const Sampler& sampler, int max_anisotropy) {
-    const Extent extent = extent_of(steps, glm::dvec2(width, height), max_anisotropy);
+                       const Sampler& sampler) {
+    const Extent extent = extent_of(steps, glm::dvec2(width, height), sampler.max_anisotropy);
     // No step at all, and what is no number, is level 0.
     const double lambda =
         extent.longest > 0.0 && std::isfinite(extent.longest)

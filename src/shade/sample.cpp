@@ -1,5 +1,7 @@
 #include "shade/sample.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <burnish/error.hpp>
@@ -33,6 +35,12 @@ bool takes_nearest_level(const Texture& texture) {
     const Filter f = texture.sampler().filter;
     return texture.levels().size() > 1 &&
            (f == Filter::nearest_mipmap_nearest || f == Filter::linear_mipmap_nearest);
+}
+
+/// Whether pixels may look at it at several places.
+bool has_probes(const Texture& texture) {
+    return texture.sampler().max_anisotropy > 1 &&
+           (blends_levels(texture) || takes_nearest_level(texture));
 }
 
 std::uint8_t signed_channels(const Texture& texture) {
@@ -200,6 +208,8 @@ class LevelPlanner {
         const bool hilo = is_hilo(m_texture.format());
         const int out = hilo ? scratch(kFirst) : target.registers;
         const LevelAddressCtx first = m_address;
+        const std::size_t probed = m_ops.size();
+        if (has_probes(m_texture)) begin_probed(out);
         plan_level(out);
         const std::size_t fetch = m_ops.size() - 1;
         std::optional<std::size_t> ceiling;
@@ -211,6 +221,7 @@ class LevelPlanner {
             plan_blend(out, scratch(kSecond), m_address.lambda);
             end_blended(blended);
         }
+        if (has_probes(m_texture)) end_probed(probed);
         if (hilo) {
             m_ops.emplace_back(HiloCtx{out, target.values,
                                        static_cast<std::uint8_t>(m_texture.is_signed(0) ? 1 : 0)});
@@ -250,12 +261,12 @@ class LevelPlanner {
     static constexpr int kFace = 0, kLambda = 1, kSliceWeight = 2, kFirst = 3, kSecond = 7,
                          kBehind = 23;
     // Scratch attribute planes.
-    static constexpr int kU = 0, kV = 1, kFootprint = 2;
+    static constexpr int kU = 0, kV = 1, kFootprint = 2, kProbes = 3, kStep = 4, kSum = 6;
 
     /// Planes of a dependent fetch may be others' later.
     [[nodiscard]] bool may_share() const {
         return m_at.interpolated && m_texture.target() != TextureTarget::three_d &&
-               !has_words(m_texture.format());
+               !has_words(m_texture.format()) && !has_probes(m_texture);
     }
 
     [[nodiscard]] bool joins(const SharedLevels& shared) const {
@@ -286,6 +297,38 @@ class LevelPlanner {
     }
     void end_blended(std::size_t begin) {
         std::get<BlendedCtx>(m_ops[begin]).count = static_cast<int>(m_ops.size() - begin - 1);
+    }
+
+    /// What is planned from here to end_probed() is for one probe: planes from `out` on get texels.
+    void begin_probed(int out) {
+        ProbedCtx probed{};
+        probed.point = {m_address.u,
+                        m_address.v,
+                        m_address.q,
+                        scratch_attribute(kStep),
+                        scratch_attribute(kProbes),
+                        scratch_attribute(kU),
+                        0};
+        probed.sum.probes = probed.point.probes;
+        probed.sum.sum = scratch_attribute(kSum);
+        probed.sum.channels = channels();
+        for (int c = 0; c < channels(); ++c)
+            probed.sum.plane[c] = static_cast<std::int16_t>(out + c);
+        probed.sum.doubled = doubled();
+        m_ops.emplace_back(probed);
+        m_address.u = scratch_attribute(kU);
+        m_address.v = scratch_attribute(kV);
+        m_address.q = -1;
+    }
+    void end_probed(std::size_t begin) {
+        std::get<ProbedCtx>(m_ops[begin]).count = static_cast<int>(m_ops.size() - begin - 1);
+    }
+
+    [[nodiscard]] int channels() const { return is_hilo(m_texture.format()) ? 2 : 4; }
+    /// Channels that come as even codes.
+    [[nodiscard]] std::uint8_t doubled() const {
+        const bool halves = !is_hilo(m_texture.format()) && m_plan.numbers == NumberModel::nine_bit;
+        return halves ? signed_channels(m_texture) : std::uint8_t{0};
     }
 
     /// 1/256.
@@ -323,7 +366,14 @@ class LevelPlanner {
         if (target == TextureTarget::one_d) footprint.scale[1] = 0.0F;
         if (target == TextureTarget::rectangle) footprint.scale[0] = footprint.scale[1] = 1.0F;
         if (cube) footprint.scale[0] = footprint.scale[1] = 0.5F * static_cast<float>(base.width);
-        if (m_at.interpolated) {
+        if (has_probes(m_texture)) {
+            m_ops.emplace_back(
+                ProbeExtentCtx{footprint,
+                               {},
+                               scratch_attribute(kProbes),
+                               scratch_attribute(kStep),
+                               static_cast<float>(m_texture.sampler().max_anisotropy)});
+        } else if (m_at.interpolated) {
             m_ops.emplace_back(PlaneFootprintCtx{footprint, {}});
         } else {
             m_ops.emplace_back(QuadFootprintCtx{footprint});
@@ -364,11 +414,9 @@ class LevelPlanner {
     }
 
     void plan_blend(int out, int other, int weight) {
-        const bool hilo = is_hilo(m_texture.format());
-        const bool doubled = !hilo && m_plan.numbers == NumberModel::nine_bit;
-        m_ops.emplace_back(BlendLevelsCtx{out, other, out, hilo ? 2 : 4, weight,
-                                          doubled ? signed_channels(m_texture) : std::uint8_t{0},
-                                          static_cast<std::uint8_t>(hilo ? 1 : 0)});
+        m_ops.emplace_back(
+            BlendLevelsCtx{out, other, out, channels(), weight, doubled(),
+                           static_cast<std::uint8_t>(is_hilo(m_texture.format()) ? 1 : 0)});
     }
 
     const Texture& m_texture;
@@ -404,6 +452,13 @@ void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
             ErrorCode::bad_program,
             "a table at the coordinates of a texture unit, expected a fetch between general "
             "stages");
+    }
+    if (has_probes(texture) && (plan.corners || !coordinates.interpolated)) {
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("max_anisotropy {} of a texture {}, expected 1",
+                                texture.sampler().max_anisotropy,
+                                plan.corners ? "on a machine with filter_order = after"
+                                             : "at coordinates that are not interpolated"));
     }
     const bool flat =
         texture.target() != TextureTarget::cube && texture.target() != TextureTarget::three_d;

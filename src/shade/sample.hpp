@@ -27,7 +27,7 @@ struct SampleTarget {
 };
 
 /// Scratch planes of any one sample.
-inline constexpr int kSampleAttributes = 3;
+inline constexpr int kSampleAttributes = 6 + ProbeSumCtx::kMaxChannels;
 inline constexpr int kSamplePlanes = 27;
 
 /// A sample with levels that others may join: what their addresses have in common, and which
@@ -80,7 +80,8 @@ TexelCornerCtx plan_texel_corner(const SampledCorners& corners, int weight, int 
 /// pixel's level of detail. Samples in a row with the same interpolated
 /// coordinates, sizes and sampler share addresses, levels of detail and, of bytes, up to four
 /// textures a fetch; of 3D textures, and of words with levels, each is alone. Throws
-/// Error{bad_program} for a texture of more coordinates than there are and for rgba16 in nine bits.
+/// Error{bad_program} for a texture of more coordinates than there are, for rgba16 in nine bits,
+/// and for probes at corners or at coordinates that nobody interpolates.
 void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
                  const SampleTarget& target, SamplePlan& plan, std::vector<InputOp>& ops);
 

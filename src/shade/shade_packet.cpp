@@ -96,14 +96,51 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
         void operator()(const HiloCtx& c) const { k.hilo(p, c); }
         void operator()(const BlendedCtx& /*c*/) const {}  // feed_inputs() may leave some out
+        void operator()(const ProbeExtentCtx& c) const {
+            ProbeExtentCtx of_packet = c;
+            of_packet.runs = runs;
+            k.probe_extent(p, of_packet);
+        }
+        void operator()(const ProbedCtx& /*c*/) const {}  // feed_inputs() repeats some
     };
     std::visit(FeedInput{kernels, runs, packet, numbers == NumberModel::nine_bit}, op);
 }
+
+namespace {
+
+/// The most probes that a fragment of the packet has.
+int most_probes(const Packet& packet, int attribute) {
+    const float* const probes = packet.attributes + attribute * kAttributeStride;
+    return static_cast<int>(*std::max_element(probes, probes + packet.count));
+}
+
+/// `ops` once for every probe.
+void feed_probes(const ProbedCtx& probed, std::span<const InputOp> ops, NumberModel numbers,
+                 const KernelTable& kernels, const AttributesCtx& runs, Packet& packet) {
+    const int probes = most_probes(packet, probed.point.probes);
+    ProbePointCtx point = probed.point;
+    ProbeSumCtx sum = probed.sum;
+    for (int k = 0; k < probes; ++k) {
+        point.probe = sum.probe = k;
+        kernels.probe_point(packet, point);
+        feed_inputs(ops, numbers, kernels, runs, packet);
+        if (probes > 1) kernels.probe_sum(packet, sum);
+    }
+    if (probes > 1) kernels.probe_mean(packet, sum);
+}
+
+}  // namespace
 
 void feed_inputs(std::span<const InputOp> ops, NumberModel numbers, const KernelTable& kernels,
                  const AttributesCtx& runs, Packet& packet) {
     int known = -1, weights = 0;  // of register plane `known`
     for (std::size_t i = 0; i < ops.size(); ++i) {
+        if (const auto* probed = std::get_if<ProbedCtx>(&ops[i])) {
+            const auto count = static_cast<std::size_t>(probed->count);
+            feed_probes(*probed, ops.subspan(i + 1, count), numbers, kernels, runs, packet);
+            i += count;
+            continue;
+        }
         const auto* blended = std::get_if<BlendedCtx>(&ops[i]);
         if (blended == nullptr) {
             if (std::holds_alternative<LevelOfDetailCtx>(ops[i])) known = -1;
