@@ -208,14 +208,14 @@ struct QuadFootprintCtx {
 /// A pixel's footprint on a flat texture, without r, divided among probes along its longer axis.
 /// Squares as in FootprintCtx from the equations of PlaneFootprintCtx, `along_x` and `along_y`:
 ///   longest = max(along_x, along_y), shortest = max(min(along_x, along_y), 1),
-///   n = min(max(ceil(sqrt(longest / shortest)), 1), most), the number of probes;
+///   n = min(max(ceil(sqrt(longest / shortest) - 2^-8), 1), most), the number of probes;
 ///   footprint.out = longest / (n * n), the square of what each of them covers;
 ///   step, step + 1 = u' / (n + 1), v' / (n + 1), before `scale`, where along_x > along_y along x,
 ///   else along y; 0 where n is 1.
-/// max(a, b) = a > b ? a : b, min(a, b) = a < b ? a : b.
-/// Source: EXT_texture_filter_anisotropic, 1999: N = min(ceil(Pmax / Pmin), maxAniso),
-/// lambda = log2(Pmax / N), probes at i / (N + 1) - 1/2 of Pmax, i = 1 .. N; Pmin is at least a
-/// texel here.
+/// max(a, b) = a > b ? a : b, min(a, b) = a < b ? a : b. 2^-8: what is as long as it is wide, but
+/// for rounding, has one probe. Source: EXT_texture_filter_anisotropic, 1999: N = min(ceil(Pmax /
+/// Pmin), maxAniso), lambda = log2(Pmax / N), probes at i / (N + 1) - 1/2 of Pmax, i = 1 .. N; Pmin
+/// is at least a texel here.
 struct ProbeExtentCtx {
     FootprintCtx footprint;
     AttributesCtx runs;  ///< attribute_count is not looked at

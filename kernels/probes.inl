@@ -19,9 +19,16 @@ void probe_extent(Packet& packet, const ProbeExtentCtx& ctx) noexcept {
         };
         const F32 along_x = square(u_x, v_x), along_y = square(u_y, v_y);
         const F32 longest = max(along_x, along_y), shortest = max(min(along_x, along_y), one);
-        const F32 ratio = square_root(divide(longest, shortest));
+        const F32 ratio = square_root(divide(longest, shortest)) - F32(0x1p-8F);
         const F32 n = min(max(zero - round_down(zero - ratio), one), most);
         const MaskF on_x = along_x > along_y, several = n > one;
+        if (!::xsimd::any(several)) {
+            store(out + first, longest);
+            store(probes + first, one);
+            store(step_u + first, zero);
+            store(step_v + first, zero);
+            return;
+        }
         const auto step = [&](F32 x, F32 y) {
             return ::xsimd::select(several, divide(::xsimd::select(on_x, x, y), n + one), zero);
         };

@@ -705,7 +705,8 @@ void probe_extent(Packet& packet, const ProbeExtentCtx& ctx) noexcept {
         const Step x = step(&Changing::dx), y = step(&Changing::dy);
         const float longest = maximum(x.square, y.square);
         const float shortest = maximum(minimum(x.square, y.square), 1.0F);
-        const float n = minimum(maximum(std::ceil(std::sqrt(longest / shortest)), 1.0F), ctx.most);
+        const float n =
+            minimum(maximum(std::ceil(std::sqrt(longest / shortest) - 0x1p-8F), 1.0F), ctx.most);
         const Step& longer = x.square > y.square ? x : y;
         attribute(packet, how.out)[i] = longest / (n * n);
         attribute(packet, ctx.probes)[i] = n;

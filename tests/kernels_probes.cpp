@@ -94,9 +94,11 @@ TEST_P(KernelTest, ProbesOfKnownFootprints) {
     EXPECT_EQ(extent(table(), 16.0F, 2.0F, 16.0F), (Extent{8.0F, 4.0F, 0.25F / 9.0F, 0.0F}));
     // Of four at most each covers 4 texels.
     EXPECT_EQ(extent(table(), 2.0F, 16.0F, 4.0F), (Extent{4.0F, 16.0F, 0.0F, 0.25F / 5.0F}));
-    // A little more than twice as long: three.
+    // More than twice as long, by more than 1/256: three.
     EXPECT_EQ(extent(table(), 2.0F, 4.0F, 16.0F)[0], 2.0F);
-    EXPECT_EQ(extent(table(), 2.0F, 4.001F, 16.0F)[0], 3.0F);
+    EXPECT_EQ(extent(table(), 2.0F, 4.007F, 16.0F)[0], 2.0F);
+    EXPECT_EQ(extent(table(), 2.0F, 4.009F, 16.0F)[0], 3.0F);
+    EXPECT_EQ(extent(table(), 2.0F, std::nextafter(2.0F, 3.0F), 16.0F)[0], 1.0F);
     // The shorter axis counts as a texel at least; magnified and undefined footprints have one.
     EXPECT_EQ(extent(table(), 0.1F, 4.0F, 16.0F)[0], 4.0F);
     EXPECT_EQ(extent(table(), 0.1F, 0.9F, 16.0F), (Extent{1.0F, 0.9F * 0.9F, 0.0F, 0.0F}));

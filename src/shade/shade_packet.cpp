@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -108,10 +109,14 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
 
 namespace {
 
-/// The most probes that a fragment of the packet has.
+/// The most probes that a fragment of the packet has. Bits of positive floats are in their order,
+/// and the largest of integers is quickly found.
 int most_probes(const Packet& packet, int attribute) {
     const float* const probes = packet.attributes + attribute * kAttributeStride;
-    return static_cast<int>(*std::max_element(probes, probes + packet.count));
+    std::int32_t most = 0;
+    for (int i = 0; i < packet.count; ++i)
+        most = std::max(most, std::bit_cast<std::int32_t>(probes[i]));
+    return static_cast<int>(std::bit_cast<float>(most));
 }
 
 /// `ops` once for every probe.
