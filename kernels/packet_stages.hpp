@@ -76,7 +76,7 @@ struct AddressCtx {
     AddressMode mode_s, mode_t;
     std::uint8_t linear;
     std::uint8_t rectangle = 0;    ///< only with modes that clamp
-    std::uint8_t texel_shift = 2;  ///< 2: four bytes a texel; 3: eight
+    std::uint8_t texel_shift = 2;  ///< 2: four bytes a texel; 3: eight; 5: 32
 };
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are

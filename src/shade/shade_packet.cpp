@@ -22,20 +22,21 @@ int codes_of(const Packet& packet, int plane) {
 
 /// The same addresses from the plain stage, where all of them are in one flat level.
 std::optional<AddressCtx> in_base_level(const LevelAddressCtx& c, const Packet& packet) {
-    const bool flat = c.face < 0 && c.r < 0 && (c.texel_bytes == 4 || c.texel_bytes == 8);
+    const bool flat = c.face < 0 && c.r < 0;
     if (!flat || c.choice == LevelChoice::ceiling) return {};
     if (c.lambda >= 0 && codes_of(packet, c.lambda) != 0) return {};
-    return AddressCtx{c.u,
-                      c.v,
-                      c.q,
-                      c.levels[0].width,
-                      c.levels[0].height,
-                      c.pitch,
-                      c.mode_s,
-                      c.mode_t,
-                      c.mag_linear,
-                      c.rectangle,
-                      static_cast<std::uint8_t>(c.texel_bytes == 8 ? 3 : 2)};
+    return AddressCtx{
+        c.u,
+        c.v,
+        c.q,
+        c.levels[0].width,
+        c.levels[0].height,
+        c.pitch,
+        c.mode_s,
+        c.mode_t,
+        c.mag_linear,
+        c.rectangle,
+        static_cast<std::uint8_t>(std::countr_zero(static_cast<unsigned>(c.texel_bytes)))};
 }
 
 }  // namespace

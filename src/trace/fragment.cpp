@@ -175,8 +175,9 @@ class InputTracer {
         }
         m_probe = 0;
         kernels.probe_mean(m_packet.packet(), sum);
-        if (const std::optional<int> unit = unit_of_plane(sum.plane[0]))
-            set_probes(probed.point, sum.plane[0], fetch_of(*unit, out));
+        for (int c = 0; c < sum.channels; ++c)
+            if (const std::optional<int> unit = unit_of_plane(sum.plane[c]))
+                set_probes(probed.point, sum.plane[c], fetch_of(*unit, out));
     }
 
     /// Of a fetch whose probes have all been looked at: where the pixel is, how they lie, and the
