@@ -120,6 +120,8 @@ TEST(LevelsSeen, ProbesFollowTheLongerStep) {
     EXPECT_EQ(seen(12.0, 4.0, 16).apart, glm::dvec2(12.0 / 64.0 / 4.0, 0.0));
     EXPECT_EQ(seen(0.1, 4.0, 16).probes, 4) << "a texel is the shortest that counts";
     EXPECT_EQ(seen(0.1, 0.9, 16).probes, 1) << "magnified";
+    EXPECT_EQ(seen(4.0, std::nextafter(4.0, 5.0), 16).probes, 1) << "as wide as it is high";
+    EXPECT_EQ(seen(4.0, 8.02, 16).probes, 3);
     EXPECT_EQ(seen(NAN, 4.0, 16).probes, seen(NAN, 4.0, 1).probes);
     // The mean of what the probes see: of a ramp along v the middle.
     const auto ramp = reference::filtered(

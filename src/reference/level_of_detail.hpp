@@ -28,8 +28,8 @@ struct LevelsSeen {
 /// not above 0, texels are magnified.
 ///
 /// With sampler.max_anisotropy above 1 the longer step is divided among as many probes as it holds
-/// shorter ones, up to that many: N = ceil(longer / shorter), each N-th of the longer one long, at
-/// i / (N + 1) - 1/2 of it, i = 1 .. N. EXT_texture_filter_anisotropic, 1999.
+/// shorter ones, up to that many: N = ceil(longer / shorter - 1/256), each N-th of the longer one
+/// long, at i / (N + 1) - 1/2 of it, i = 1 .. N. EXT_texture_filter_anisotropic, 1999.
 LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
                        const Sampler& sampler);
 

@@ -455,7 +455,8 @@ void ExactInputs::measure(const ProbeExtentCtx& ctx) {
     const glm::dvec2 scale(how.scale[0], how.scale[1]);
     const double x = glm::length(across * scale), y = glm::length(down * scale);
     const double longest = std::max(x, y), shortest = std::max(std::min(x, y), 1.0);
-    const double n = std::clamp(std::ceil(longest / shortest), 1.0, static_cast<double>(ctx.most));
+    const double n =
+        std::clamp(std::ceil(longest / shortest - 0x1p-8), 1.0, static_cast<double>(ctx.most));
     const glm::dvec2 apart = n > 1.0 ? (x > y ? across : down) / (n + 1.0) : glm::dvec2(0.0);
     set_attribute(how.out, longest * longest / (n * n));
     set_attribute(ctx.probes, n);
