@@ -670,6 +670,28 @@ void add_levels() {
         {.attributes = {7}});
     add_packet_stage("quad_footprint", &KernelTable::quad_footprint, packet,
                      QuadFootprintCtx{footprint}, {.attributes = {7}});
+    add_packet_stage(
+        "probe_extent/runs_of_16", &KernelTable::probe_extent, packet,
+        ProbeExtentCtx{footprint,
+                       {runs.data(), static_cast<int>(runs.size()), 3, equations.data()},
+                       8,
+                       9,
+                       16.0F},
+        {.attributes = {7, 8, 9, 10}});
+    for (int i = 0; i < kPacketSize; ++i) packet.attribute(8)[i] = static_cast<float>(1 + i % 16);
+    add_packet_stage("probe_point", &KernelTable::probe_point, packet,
+                     ProbePointCtx{0, 1, -1, 2, 8, 11, 3}, {.attributes = {11, 12}});
+    for (int k = 13; k < 17; ++k)
+        for (int i = 0; i < kPacketSize; ++i)
+            packet.attribute(k)[i] = static_cast<float>(random.below(4096));
+    for (int k = 10; k < 14; ++k)
+        for (int i = 0; i < kPacketSize; ++i)
+            packet.plane(k)[i] = static_cast<std::int16_t>(random.below(256));
+    const ProbeSumCtx sum{8, 3, 13, 4, {10, 11, 12, 13}, 0};
+    add_packet_stage("probe_sum", &KernelTable::probe_sum, packet, sum,
+                     {.attributes = {13, 14, 15, 16}});
+    add_packet_stage("probe_mean", &KernelTable::probe_mean, packet, sum,
+                     {.planes = {10, 11, 12, 13}});
     add_packet_stage("level_of_detail", &KernelTable::level_of_detail, packet,
                      LevelOfDetailCtx{6, 7, 0, 1024}, {.planes = {7}});
     LevelAddressCtx address{};

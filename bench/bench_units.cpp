@@ -22,6 +22,7 @@ struct UnitTexture {
     TextureTarget target = TextureTarget::two_d;
     TexelFormat format = TexelFormat::rgba8;
     bool box_mipmaps = false;
+    int max_anisotropy = 1;
 };
 
 /// Noise, linear filters, 128 texels a side; volumes 32 of them.
@@ -32,6 +33,7 @@ TexturePtr make_texture(const UnitTexture& kind) {
     TextureDescription description{.target = kind.target, .format = kind.format};
     description.box_mipmaps = kind.box_mipmaps;
     if (kind.box_mipmaps) description.sampler.filter = Filter::linear_mipmap_linear;
+    description.sampler.max_anisotropy = kind.max_anisotropy;
     if (kind.target == TextureTarget::rectangle || kind.target == TextureTarget::cube)
         description.sampler.wrap_s = description.sampler.wrap_t = Wrap::clamp_to_edge;
     if (volume) description.depth = side;
@@ -47,6 +49,7 @@ struct Case {
     const char* name;
     const char* shader;  ///< TS1.0 without its header; the last unit is what the program reads
     std::vector<UnitTexture> units;
+    float stretch = 0.0F;  ///< > 0: a pixel is 3/2 texels high and so many times as wide
 };
 
 std::vector<Case> cases() {
@@ -57,12 +60,16 @@ std::vector<Case> cases() {
     const UnitTexture color{}, cube{kCube}, volume{kVolume}, rectangle{kRectangle};
     const UnitTexture dsdt{kTwoD, TexelFormat::dsdt8}, mag{kTwoD, TexelFormat::dsdt8_mag8},
         hilo{kTwoD, TexelFormat::hilo16}, signed_hilo{kTwoD, TexelFormat::signed_hilo16},
-        mips{kTwoD, kColor, true};
+        mips{kTwoD, kColor, true}, probes{kTwoD, kColor, true, 16};
     return {
         {"texture_1d", "texture_1d();", {{kOneD}}},
         {"texture_2d", "texture_2d();", {color}},
         {"texture_2d_signed", "texture_2d();", {{kTwoD, TexelFormat::signed_rgba8}}},
         {"texture_2d_trilinear", "texture_2d();", {mips}},
+        {"texture_2d_trilinear_square", "texture_2d();", {mips}, 1.0F},
+        {"texture_2d_1_probe_of_16", "texture_2d();", {probes}, 1.0F},
+        {"texture_2d_4_probes_of_16", "texture_2d();", {probes}, 3.5F},
+        {"texture_2d_16_probes_of_16", "texture_2d();", {probes}, 15.5F},
         {"texture_rectangle", "texture_rectangle();", {rectangle}},
         {"texture_cube_map", "texture_cube_map();", {cube}},
         {"texture_3d", "texture_3d();", {volume}},
@@ -140,6 +147,12 @@ struct Fragments {
             equations.set(k + 1, 0,
                           {random.real(0.2F, 0.8F), random.real(-0.009F, 0.009F),
                            random.real(-0.009F, 0.009F)});
+        if (c.stretch > 0.0F) {
+            for (int k = 0; k <= shading.interpolated(); ++k)  // 1/w and q are 1
+                equations.set(k, 0, {1.0F, 0.0F, 0.0F});
+            equations.set(1, 0, {0.3F, 1.5F * c.stretch / 128.0F, 0.0F});
+            equations.set(2, 0, {0.4F, 0.0F, 1.5F / 128.0F});
+        }
         run = {0, kPacketSize, 100, 200};
     }
     void shade(const KernelTable& table, AlignedVector<std::int16_t>& planes,

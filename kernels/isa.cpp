@@ -31,6 +31,7 @@ namespace {
 #include "kernels/words.inl"
 
 #include "kernels/corners.inl"  // after levels.inl, whose choice of a level it uses
+#include "kernels/probes.inl"   // after levels.inl, whose steps it uses
 
 #include "kernels/blend.inl"  // after final.inl: what it blends is what store writes
 #include "kernels/fragment_tests.inl"

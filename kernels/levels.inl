@@ -49,6 +49,12 @@ void cube_face(Packet& packet, const CubeFaceCtx& ctx) noexcept {
     }
 }
 
+/// How far the coordinate c / d moves along an axis of the screen.
+F32 moved(const Changing& c, const Changing& d, F32 Changing::*along) {
+    const F32 u = divide(c.value, d.value);
+    return divide(c.*along - u * (d.*along), d.value);
+}
+
 /// `at` gives attribute k, or with -1 the divisor where there is no q.
 template <class At>
 F32 footprint(const FootprintCtx& ctx, At at) {
@@ -65,8 +71,7 @@ F32 footprint(const FootprintCtx& ctx, At at) {
     }
     const auto square = [&](F32 Changing::*along) {
         const auto texels = [&](const Changing& c, float scale) {
-            const F32 u = divide(c.value, d.value);
-            return divide(c.*along - u * (d.*along), d.value) * F32(scale);
+            return moved(c, d, along) * F32(scale);
         };
         const F32 x = texels(s, ctx.scale[0]), y = texels(t, ctx.scale[1]);
         const F32 flat = x * x + y * y;
@@ -77,17 +82,22 @@ F32 footprint(const FootprintCtx& ctx, At at) {
     return max(square(&Changing::dx), square(&Changing::dy));
 }
 
+/// An attribute over w, or 1/w as number -1, from its equation.
+template <class Row>
+auto equations_at(const PixelPositions& pixel, const Row& row) {
+    return [&pixel, &row](int attribute) {
+        const int k = 3 * (attribute + 1);
+        const F32 dx = row(k + 1), dy = row(k + 2);
+        return Changing{(row(k) + dx * pixel.x) + dy * pixel.y, dx, dy};
+    };
+}
+
 void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
     const FootprintCtx how = ctx.footprint;
     float* const out = packet.attributes + how.out * kAttributeStride;
     const FragmentRuns runs(packet, ctx.runs);
     runs.for_each_vector([&](int first, const PixelPositions& pixel, const auto& row) {
-        const auto at = [&](int attribute) {
-            const int k = 3 * (attribute + 1);
-            const F32 dx = row(k + 1), dy = row(k + 2);
-            return Changing{(row(k) + dx * pixel.x) + dy * pixel.y, dx, dy};
-        };
-        store(out + first, footprint(how, at));
+        store(out + first, footprint(how, equations_at(pixel, row)));
     });
 }
 

@@ -76,7 +76,7 @@ struct AddressCtx {
     AddressMode mode_s, mode_t;
     std::uint8_t linear;
     std::uint8_t rectangle = 0;    ///< only with modes that clamp
-    std::uint8_t texel_shift = 2;  ///< 2: four bytes a texel; 3: eight
+    std::uint8_t texel_shift = 2;  ///< 2: four bytes a texel; 3: eight; 5: 32
 };
 
 /// Bilinear texels of up to four textures of one size at the packet's addresses; left and right are
@@ -203,6 +203,50 @@ struct PlaneFootprintCtx {
 /// lower - upper in its own column; D is attribute q, or 1 with no difference. Groups are whole.
 struct QuadFootprintCtx {
     FootprintCtx footprint;
+};
+
+/// A pixel's footprint on a flat texture, without r, divided among probes along its longer axis.
+/// Squares as in FootprintCtx from the equations of PlaneFootprintCtx, `along_x` and `along_y`:
+///   longest = max(along_x, along_y), shortest = max(min(along_x, along_y), 1),
+///   n = min(max(ceil(sqrt(longest / shortest) - 2^-8), 1), most), the number of probes;
+///   footprint.out = longest / (n * n), the square of what each of them covers;
+///   step, step + 1 = u' / (n + 1), v' / (n + 1), before `scale`, where along_x > along_y along x,
+///   else along y; 0 where n is 1.
+/// max(a, b) = a > b ? a : b, min(a, b) = a < b ? a : b. 2^-8: what is as long as it is wide, but
+/// for rounding, has one probe. Source: EXT_texture_filter_anisotropic, 1999: N = min(ceil(Pmax /
+/// Pmin), maxAniso), lambda = log2(Pmax / N), probes at i / (N + 1) - 1/2 of Pmax, i = 1 .. N; Pmin
+/// is at least a texel here.
+struct ProbeExtentCtx {
+    FootprintCtx footprint;
+    AttributesCtx runs;  ///< attribute_count is not looked at
+    int probes;          ///< attribute plane to write with n
+    int step;            ///< attribute planes to write: step, step + 1
+    float most;          ///< 2 .. 16
+};
+
+/// Where probe k of n looks: u and v, over q where there is a q, moved to
+///   to = u + step * i, to + 1 = v + (step + 1) * i, i = min(k, n - 1) - (n - 1) * 0.5.
+struct ProbePointCtx {
+    int u, v;    ///< attribute planes
+    int q;       ///< attribute plane, or -1
+    int step;    ///< attribute planes: step, step + 1
+    int probes;  ///< attribute plane of n, whole, 1 .. 16
+    int to;      ///< attribute planes to write: to, to + 1
+    int probe;   ///< k, 0 .. 15
+};
+
+/// Sums of what probes see, one attribute plane from `sum` on for every channel:
+/// probe_sum: sum = (k == 0 ? 0 : sum) + (k < n ? code : 0).
+/// probe_mean: code = floor(sum / n + 1/2); channels of `doubled` hold even codes 2 m, and m is
+/// what is rounded: code = 2 floor((sum / 2) / n + 1/2). Floats give both exactly: |sum| < 2^20.
+struct ProbeSumCtx {
+    static constexpr int kMaxChannels = 16;
+    int probes;                        ///< attribute plane of n, whole, 1 .. 16
+    int probe;                         ///< k; probe_mean does not look at it
+    int sum;                           ///< the first attribute plane
+    int channels;                      ///< 1 .. kMaxChannels
+    std::int16_t plane[kMaxChannels];  ///< of the codes: probe_sum reads, probe_mean writes
+    std::uint16_t doubled;             ///< bit c: channel c
 };
 
 /// Level of detail in 1/256 from the footprint f in attribute plane `footprint`:

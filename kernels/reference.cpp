@@ -624,6 +624,12 @@ void cube_face(Packet& packet, const CubeFaceCtx& ctx) noexcept {
     }
 }
 
+/// How far the coordinate c / d moves along an axis of the screen.
+float moved(const Changing& c, const Changing& d, float Changing::*along) {
+    const float u = c.value / d.value;
+    return (c.*along - u * (d.*along)) / d.value;
+}
+
 /// `at` gives attribute k, or with -1 the divisor where there is no q.
 template <class At>
 float footprint(const FootprintCtx& ctx, At at) {
@@ -639,8 +645,7 @@ float footprint(const FootprintCtx& ctx, At at) {
     }
     const auto square = [&](float Changing::*along) {
         const auto texels = [&](const Changing& c, float scale) {
-            const float u = c.value / d.value;
-            return ((c.*along - u * (d.*along)) / d.value) * scale;
+            return moved(c, d, along) * scale;
         };
         const float x = texels(s, ctx.scale[0]), y = texels(t, ctx.scale[1]);
         const float flat = x * x + y * y;
@@ -651,19 +656,26 @@ float footprint(const FootprintCtx& ctx, At at) {
     return maximum(square(&Changing::dx), square(&Changing::dy));
 }
 
-void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
-    for (int k = 0; k < ctx.runs.run_count; ++k) {
-        const Run& run = ctx.runs.runs[k];
+/// Calls f(i, at) for every fragment i; at(k) is attribute k over w there, at(-1) 1/w.
+template <class F>
+void for_each_fragment(const Packet& packet, const AttributesCtx& runs, F f) {
+    for (int k = 0; k < runs.run_count; ++k) {
+        const Run& run = runs.runs[k];
         for (int i = run.first; i < run.first + run.count; ++i) {
             const auto x = static_cast<float>(tile_x(packet.pixels[i]) + run.offset_x);
             const auto y = static_cast<float>(tile_y(packet.pixels[i]) + run.offset_y);
-            const auto at = [&](int attribute) -> Changing {
-                const Equation p = equation(ctx.runs, attribute + 1, k);
+            f(i, [&](int attribute) -> Changing {
+                const Equation p = equation(runs, attribute + 1, k);
                 return {(p.origin + p.dx * x) + p.dy * y, p.dx, p.dy};
-            };
-            attribute(packet, ctx.footprint.out)[i] = footprint(ctx.footprint, at);
+            });
         }
     }
+}
+
+void plane_footprint(Packet& packet, const PlaneFootprintCtx& ctx) noexcept {
+    for_each_fragment(packet, ctx.runs, [&](int i, auto at) {
+        attribute(packet, ctx.footprint.out)[i] = footprint(ctx.footprint, at);
+    });
 }
 
 void quad_footprint(Packet& packet, const QuadFootprintCtx& ctx) noexcept {
@@ -675,6 +687,69 @@ void quad_footprint(Packet& packet, const QuadFootprintCtx& ctx) noexcept {
             return {a[i], a[left + 1] - a[left], a[upper + 2] - a[upper]};
         };
         attribute(packet, ctx.footprint.out)[i] = footprint(ctx.footprint, at);
+    }
+}
+
+void probe_extent(Packet& packet, const ProbeExtentCtx& ctx) noexcept {
+    for_each_fragment(packet, ctx.runs, [&](int i, auto at) {
+        const FootprintCtx& how = ctx.footprint;
+        const Changing s = at(how.s), t = at(how.t), d = at(how.q);
+        struct Step {
+            float u, v, square;
+        };
+        const auto step = [&](float Changing::*along) -> Step {
+            const float u = moved(s, d, along), v = moved(t, d, along);
+            const float x = u * how.scale[0], y = v * how.scale[1];
+            return {u, v, x * x + y * y};
+        };
+        const Step x = step(&Changing::dx), y = step(&Changing::dy);
+        const float longest = maximum(x.square, y.square);
+        const float shortest = maximum(minimum(x.square, y.square), 1.0F);
+        const float n =
+            minimum(maximum(std::ceil(std::sqrt(longest / shortest) - 0x1p-8F), 1.0F), ctx.most);
+        const Step& longer = x.square > y.square ? x : y;
+        attribute(packet, how.out)[i] = longest / (n * n);
+        attribute(packet, ctx.probes)[i] = n;
+        attribute(packet, ctx.step)[i] = n > 1.0F ? longer.u / (n + 1.0F) : 0.0F;
+        attribute(packet, ctx.step + 1)[i] = n > 1.0F ? longer.v / (n + 1.0F) : 0.0F;
+    });
+}
+
+void probe_point(Packet& packet, const ProbePointCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const int n = static_cast<int>(attribute(packet, ctx.probes)[i]);
+        const float steps =
+            static_cast<float>(std::min(ctx.probe, n - 1)) - static_cast<float>(n - 1) * 0.5F;
+        for (int c = 0; c < 2; ++c) {
+            float at = attribute(packet, c == 0 ? ctx.u : ctx.v)[i];
+            if (ctx.q >= 0) at = at / attribute(packet, ctx.q)[i];
+            attribute(packet, ctx.to + c)[i] = at + attribute(packet, ctx.step + c)[i] * steps;
+        }
+    }
+}
+
+void probe_sum(Packet& packet, const ProbeSumCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const int n = static_cast<int>(attribute(packet, ctx.probes)[i]);
+        for (int c = 0; c < ctx.channels; ++c) {
+            float& sum = attribute(packet, ctx.sum + c)[i];
+            const Int before = ctx.probe == 0 ? 0 : static_cast<Int>(sum);
+            const Int code = ctx.probe < n ? plane(packet, ctx.plane[c])[i] : 0;
+            sum = static_cast<float>(before + code);
+        }
+    }
+}
+
+void probe_mean(Packet& packet, const ProbeSumCtx& ctx) noexcept {
+    for (int i = 0; i < packet.count; ++i) {
+        const Int n = static_cast<Int>(attribute(packet, ctx.probes)[i]);
+        for (int c = 0; c < ctx.channels; ++c) {
+            const Int unit = (ctx.doubled >> c & 1) != 0 ? 2 : 1;
+            const Int sum = static_cast<Int>(attribute(packet, ctx.sum + c)[i]) / unit;
+            // floor((2 sum + n) / (2 n)), the numerator made positive by a multiple of 2 n.
+            const Int mean = (2 * sum + n + (Int{2} * n << 24)) / (2 * n) - (Int{1} << 24);
+            plane(packet, ctx.plane[c])[i] = static_cast<std::int16_t>(mean * unit);
+        }
     }
 }
 
@@ -1516,6 +1591,10 @@ const KernelTable& table_reference() noexcept {
         .cube_face = cube_face,
         .plane_footprint = plane_footprint,
         .quad_footprint = quad_footprint,
+        .probe_extent = probe_extent,
+        .probe_point = probe_point,
+        .probe_sum = probe_sum,
+        .probe_mean = probe_mean,
         .level_of_detail = level_of_detail,
         .level_address = level_address,
         .texel_corner = texel_corner,

@@ -43,6 +43,10 @@
     X(cube_face, CubeFaceCtx)               \
     X(plane_footprint, PlaneFootprintCtx)   \
     X(quad_footprint, QuadFootprintCtx)     \
+    X(probe_extent, ProbeExtentCtx)         \
+    X(probe_point, ProbePointCtx)           \
+    X(probe_sum, ProbeSumCtx)               \
+    X(probe_mean, ProbeSumCtx)              \
     X(level_of_detail, LevelOfDetailCtx)    \
     X(level_address, LevelAddressCtx)       \
     X(texel_corner, TexelCornerCtx)         \

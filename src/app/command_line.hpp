@@ -34,6 +34,7 @@ struct PictureOptions {
     std::optional<Model> model;      ///< instead of the materials' own
     /// Instead of the materials' own.
     std::optional<MaterialMipmaps> mipmaps;
+    std::optional<int> max_anisotropy;  ///< of the materials with mip levels of their parameters
     bool multipass = false;
     std::optional<std::string> half_vector;  ///< of choose_half_vector
     std::optional<FilterOrder> filter_order;

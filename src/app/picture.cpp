@@ -67,7 +67,8 @@ void apply_camera(const CameraOptions& options, Camera& camera) {
     if (options.elevation != 0.0F) camera = raised(camera, options.elevation);
 }
 
-/// What --material, --model and --mipmaps ask for, of every object that is a mesh.
+/// What --material, --model, --mipmaps and --max-anisotropy ask for, of every object that is a
+/// mesh.
 void replace_materials(const PictureOptions& options, Scene& scene) {
     std::shared_ptr<const Material> replacement;
     if (!options.material.empty())
@@ -82,7 +83,7 @@ void replace_materials(const PictureOptions& options, Scene& scene) {
                         fmt::format("--model: material '{}' is a pipeline, expected one with a "
                                     "reflectance model",
                                     object.material->name));
-        if (is_pipeline || !(options.model || options.mipmaps)) continue;
+        if (is_pipeline || !(options.model || options.mipmaps || options.max_anisotropy)) continue;
         std::shared_ptr<const Material>& copy = changed[object.material.get()];
         if (!copy) {
             Material material = object.material ? *object.material : Material{};
@@ -92,6 +93,8 @@ void replace_materials(const PictureOptions& options, Scene& scene) {
                 material.mipmaps = options.mipmaps;
                 material.mipmaps->max_anisotropy = probes;
             }
+            if (options.max_anisotropy && material.mipmaps)
+                material.mipmaps->max_anisotropy = *options.max_anisotropy;
             copy = std::make_shared<const Material>(std::move(material));
         }
         object.material = copy;

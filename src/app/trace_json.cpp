@@ -80,9 +80,11 @@ std::string fetch_json(const TracedFetch& f) {
     const auto maybe = [](const std::optional<TracedNumber>& n) { return n ? json(*n) : "null"; };
     return fmt::format(
         "{{\"unit\": {}, \"width\": {}, \"height\": {}, \"filter\": \"{}\", \"u\": {}, \"v\": {}, "
-        "\"r\": {}, \"level_of_detail\": {}, {}, \"further\": {}, \"codes\": {}, {}}}",
+        "\"r\": {}, \"level_of_detail\": {}, \"probes\": {}, \"apart\": {}, {}, \"further\": {}, "
+        "\"codes\": {}, {}}}",
         f.unit, f.width, f.height, filter_name(f.sampler.filter), json(f.u), json(f.v), maybe(f.r),
-        maybe(f.lod), taps_json(f),
+        maybe(f.lod), json(f.probes),
+        json_list(f.apart, [](const TracedNumber& n) { return json(n); }), taps_json(f),
         json_list(f.further,
                   [](const TracedTaps& t) { return fmt::format("{{{}}}", taps_json(t)); }),
         json_list(f.codes), json_members(f.color));

@@ -147,6 +147,11 @@ std::string fetch_text(const TracedFetch& f, const TableWriter& table) {
     text += number_text("u", f.u) + number_text("v", f.v);
     if (f.r) text += number_text("r", *f.r);
     if (f.lod) text += number_text("level of detail", *f.lod);
+    if (f.sampler.max_anisotropy > 1) {
+        text += fmt::format("  probes {:.0f}, exact {:.0f}\n", f.probes.value, f.probes.exact);
+        text += number_text("u from probe to probe", f.apart[0]);
+        text += number_text("v from probe to probe", f.apart[1]);
+    }
     text += place_text(f, f) + taps_text(f);
     for (const TracedTaps& taps : f.further) text += place_text(f, taps) + taps_text(taps);
     const std::string name = fmt::format("  tex{}", f.unit);

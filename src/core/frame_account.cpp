@@ -45,6 +45,7 @@ constexpr Family kFamilies[] = {
     {"cube_face", FrameStage::texture},
     {"plane_footprint", FrameStage::texture},
     {"quad_footprint", FrameStage::texture},
+    {"probe_", FrameStage::texture},
     {"level_", FrameStage::texture},
     {"blend_levels", FrameStage::texture},
     {"hilo", FrameStage::texture},

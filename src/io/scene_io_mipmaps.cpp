@@ -70,8 +70,8 @@ void read_mipmaps(const Section& section, const TextureTable& textures, Material
             section.refuse_without(key, "mipmaps");
         return;
     }
-    material.mipmaps->max_anisotropy =
-        section.integer("max_anisotropy", 1, 16).value_or(material.mipmaps->max_anisotropy);
+    material.mipmaps->max_anisotropy = section.integer("max_anisotropy", 1, Sampler::kMostProbes)
+                                           .value_or(material.mipmaps->max_anisotropy);
     const std::optional<int> bits = section.integer("mipmap_bits", 8, 32);
     if (!bits) return;
     if (*bits != 8 && *bits != 16 && *bits != 32)

@@ -98,6 +98,10 @@ Sampler read_sampler(const Section& section, TextureTarget target) {
     sampler.filter = section.choice<Filter>("filter", kFilters).value_or(sampler.filter);
     sampler.mag_filter = section.choice<Filter>("mag_filter", kMagFilters);
     sampler.lod_bias = section.number("lod_bias", {-16.0, 15.99609375}).value_or(0.0F);
+    sampler.max_anisotropy = section.integer("max_anisotropy", 1, Sampler::kMostProbes).value_or(1);
+    if (sampler.max_anisotropy > 1 && target != TextureTarget::two_d)
+        section.fail("max_anisotropy",
+                     fmt::format("'max_anisotropy' in {} whose target is not 2d", section.label()));
     if (const auto border = section.vec4("border_color", {-1.0, 1.0}))
         sampler.border = {border->r, border->g, border->b, border->a};
     if (target == TextureTarget::cube && section.has("wrap"))
@@ -368,9 +372,10 @@ TextureTable read_textures(const Section& root, const std::filesystem::path& dir
     for (const toml::table* table : root.tables("textures")) {
         const Section section(
             *table, "[[textures]]",
-            {"name",    "file",      "width",    "height",       "texels", "generator",  "seed",
-             "size",    "map",       "format",   "target",       "filter", "mag_filter", "wrap",
-             "mipmaps", "mip_files", "lod_bias", "border_color", "files",  "depth"});
+            {"name",       "file",  "width",         "height",    "texels",   "generator",
+             "seed",       "size",  "map",           "format",    "target",   "filter",
+             "mag_filter", "wrap",  "mipmaps",       "mip_files", "lod_bias", "border_color",
+             "files",      "depth", "max_anisotropy"});
         const std::string name = section.required_text("name");
         require_new_name(section, textures, name);
         textures.emplace(name, read_texture(section, directory, sets));

@@ -180,7 +180,7 @@ struct BitRenderer::State {
                                      .filter = bits.filter,
                                      .table = bits.table};
         ExactInputs inputs(shading, lit.draw.mesh(), triangle, x, y, rounding);
-        for (const InputOp& op : shading.inputs) inputs.feed(op);
+        inputs.feed_all(shading.inputs);
         std::size_t next = 0;
         const FetchReals fetch = [&](const StageFetch& f, const std::array<double, 3>& at) {
             const int unit = static_cast<int>(f.destination) - static_cast<int>(Register::tex0);

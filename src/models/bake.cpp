@@ -178,8 +178,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
         baked.units[i] = images[i]->texture(
             {.sampler = source.sampler(), .box_mipmaps = source.averages_layer()});
     }
-    const bool has_levels = source.averages_layer() || source.levels() > 1;
-    if (coding == TexelCoding::words && !has_levels) gather_quartets(baked.units);
+    if (coding == TexelCoding::words) gather_quartets(baked.units);
     for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
         LayerQuantity d = description(plan.quantities[i], coding);
         d.texture = baked.units[static_cast<std::size_t>(schedule.quantities[i].unit)];

@@ -45,13 +45,7 @@ std::string name_of(const Material& material, const Shortage& shortage) {
 
 /// What is kept of a material.
 struct ModelCompiler::Parts {
-    explicit Parts(const Material& of) : material(of), terms(of) {
-        if (!of.mipmaps || of.mipmaps->max_anisotropy <= 1) return;
-        throw Error(ErrorCode::bad_program,
-                    fmt::format("material '{}': max_anisotropy {}, expected 1: machines take one "
-                                "level of detail for both axes, profile double alone has probes",
-                                of.name, of.mipmaps->max_anisotropy));
-    }
+    explicit Parts(const Material& of) : material(of), terms(of) {}
 
     CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient);
 

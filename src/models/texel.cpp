@@ -115,6 +115,8 @@ void TexelSource::make_mips() {
     std::vector<mips::ParameterGrid> mips;
     if (m_material.mipmaps) {
         m_sampler.filter = with_levels(m_sampler.filter, *m_material.mipmaps);
+        m_sampler.max_anisotropy =
+            std::max(m_sampler.max_anisotropy, m_material.mipmaps->max_anisotropy);
         if (m_material.mipmaps->method == MipMethod::maps) {
             mips = mips_of_maps();
         } else {

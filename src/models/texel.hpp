@@ -49,12 +49,9 @@ class TexelSource {
     /// At least 1.
     [[nodiscard]] int levels() const;
     /// Of the finest map; with mipmaps one that blends levels, if the map's does not look at them,
-    /// and one that does not look at them for MipMethod::none.
+    /// and one that does not look at them for MipMethod::none. Probes are the material's or the
+    /// map's, whichever are more.
     [[nodiscard]] const Sampler& sampler() const { return m_sampler; }
-    /// As in MaterialMipmaps.
-    [[nodiscard]] int max_anisotropy() const {
-        return m_material.mipmaps ? m_material.mipmaps->max_anisotropy : 1;
-    }
     /// Whether what is made from texels is to be averaged itself: maps have mip levels, and the
     /// material does not say how.
     [[nodiscard]] bool averages_layer() const { return m_averages_layer; }

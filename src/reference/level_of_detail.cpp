@@ -7,6 +7,9 @@ namespace burnish::reference {
 
 namespace {
 
+/// A step is longer than another one from this part of it on, and not by rounding alone.
+constexpr double kLonger = 1.0 / 256.0;
+
 /// The longer step of a sample in texels of level 0, and how it is divided.
 struct Extent {
     double longest = 0.0;
@@ -25,8 +28,8 @@ Extent extent_of(const CoordinateSteps& steps, const glm::dvec2& size, int max_a
         return extent;
     // Steps shorter than a texel see no detail more.
     const double shortest = std::max(std::min(across, down), 1.0);
-    extent.probes = static_cast<int>(
-        std::min(std::ceil(extent.longest / shortest), static_cast<double>(max_anisotropy)));
+    extent.probes = static_cast<int>(std::min(std::ceil(extent.longest / shortest - kLonger),
+                                              static_cast<double>(max_anisotropy)));
     extent.apart = (across > down ? steps.across : steps.down) / (extent.probes + 1.0);
     return extent;
 }
@@ -56,8 +59,8 @@ LevelsSeen levels_at(double lambda, int levels, const Sampler& sampler) {
 }  // namespace
 
 LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
-                       const Sampler& sampler, int max_anisotropy) {
-    const Extent extent = extent_of(steps, glm::dvec2(width, height), max_anisotropy);
+                       const Sampler& sampler) {
+    const Extent extent = extent_of(steps, glm::dvec2(width, height), sampler.max_anisotropy);
     // No step at all, and what is no number, is level 0.
     const double lambda =
         extent.longest > 0.0 && std::isfinite(extent.longest)

@@ -27,11 +27,11 @@ struct LevelsSeen {
 /// on the machines, with all its digits; levels are chosen from it as `sampler` says. Where it is
 /// not above 0, texels are magnified.
 ///
-/// With `max_anisotropy` above 1 the longer step is divided among as many probes as it holds
-/// shorter ones, up to that many: N = ceil(longer / shorter), each N-th of the longer one long, at
-/// i / (N + 1) - 1/2 of it, i = 1 .. N. EXT_texture_filter_anisotropic, 1999.
+/// With sampler.max_anisotropy above 1 the longer step is divided among as many probes as it holds
+/// shorter ones, up to that many: N = ceil(longer / shorter - 1/256), each N-th of the longer one
+/// long, at i / (N + 1) - 1/2 of it, i = 1 .. N. EXT_texture_filter_anisotropic, 1999.
 LevelsSeen levels_seen(const CoordinateSteps& steps, int width, int height, int levels,
-                       const Sampler& sampler, int max_anisotropy = 1);
+                       const Sampler& sampler);
 
 /// Mean of texel(level, x, y) at `uv`; `size(level)` is the level's in texels.
 template <class Texel, class Size>
@@ -63,9 +63,8 @@ template <class Value>
 [[nodiscard]] auto filtered_texels(const TexelSource& source, const glm::dvec2& uv,
                                    const CoordinateSteps& steps, Value&& value) {
     const bool has_levels = source.levels() > 1;
-    const LevelsSeen seen =
-        levels_seen(has_levels ? steps : CoordinateSteps{}, source.width(), source.height(),
-                    source.levels(), source.sampler(), source.max_anisotropy());
+    const LevelsSeen seen = levels_seen(has_levels ? steps : CoordinateSteps{}, source.width(),
+                                        source.height(), source.levels(), source.sampler());
     const auto size = [&](int level) {
         return glm::ivec2(source.width(level), source.height(level));
     };

@@ -29,6 +29,15 @@ struct BlendedCtx {
     int count;
 };
 
+/// The next `count` operations bring what one probe sees, at the coordinates that `point` leaves.
+/// They run once for every probe that a fragment of the packet has, and the means that `sum`
+/// describes take the place of the codes; where there is one probe the codes stay as they are.
+struct ProbedCtx {
+    ProbePointCtx point;
+    ProbeSumCtx sum;
+    int count;
+};
+
 /// Brings a packet's attributes to its registers, before the program runs or between its stages.
 /// PrefetchQuartetCtx is in Shading's packet_inputs alone.
 using InputOp =
@@ -36,6 +45,7 @@ using InputOp =
                  DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
                  AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
                  LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
-                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx, PrefetchQuartetCtx>;
+                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx, PrefetchQuartetCtx,
+                 ProbeExtentCtx, ProbedCtx>;
 
 }  // namespace burnish

@@ -1,5 +1,7 @@
 #include "shade/sample.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <burnish/error.hpp>
@@ -33,6 +35,12 @@ bool takes_nearest_level(const Texture& texture) {
     const Filter f = texture.sampler().filter;
     return texture.levels().size() > 1 &&
            (f == Filter::nearest_mipmap_nearest || f == Filter::linear_mipmap_nearest);
+}
+
+/// Whether pixels may look at it at several places.
+bool has_probes(const Texture& texture) {
+    return texture.sampler().max_anisotropy > 1 &&
+           (blends_levels(texture) || takes_nearest_level(texture));
 }
 
 std::uint8_t signed_channels(const Texture& texture) {
@@ -72,6 +80,22 @@ void add_texture(FetchCtx& fetch, const Texture& texture, int plane) {
     fetch.plane[fetch.count++] = plane;
 }
 
+/// The quartet that the texture is in, of which it alone is fetched.
+FetchQuartetCtx quartet_of(const Texture& texture, int plane) {
+    FetchQuartetCtx fetch{texture.texels() - FetchQuartetCtx::kNextTexture * texture.place(),
+                          {-1, -1, -1, -1},
+                          texture.pitch()};
+    fetch.plane[texture.place()] = plane;
+    return fetch;
+}
+
+/// Adds what `more` fetches, if it is one place more of the same quartet.
+bool takes_too(FetchQuartetCtx& fetch, const FetchQuartetCtx& more, int place) {
+    if (fetch.texels != more.texels || fetch.plane[place] >= 0) return false;
+    fetch.plane[place] = more.plane[place];
+    return true;
+}
+
 /// The fetch of the texture's quartet at the addresses that the packet has now, if there is one.
 FetchQuartetCtx* quartet_in(std::vector<InputOp>& ops, const std::uint8_t* texels) {
     for (auto op = ops.rbegin(); op != ops.rend(); ++op) {
@@ -87,14 +111,10 @@ FetchQuartetCtx* quartet_in(std::vector<InputOp>& ops, const std::uint8_t* texel
 /// Planes from `plane` on get the texture's texels at the packet's addresses, which are the same as
 /// for all fetches since they were worked out.
 void plan_fetch_of_quartet(const Texture& texture, int plane, std::vector<InputOp>& ops) {
-    const std::uint8_t* const texels =
-        texture.texels() - FetchQuartetCtx::kNextTexture * texture.place();
-    FetchQuartetCtx* fetch = quartet_in(ops, texels);
-    if (fetch == nullptr || fetch->plane[texture.place()] >= 0) {
-        ops.emplace_back(FetchQuartetCtx{texels, {-1, -1, -1, -1}, texture.pitch()});
-        fetch = &std::get<FetchQuartetCtx>(ops.back());
-    }
-    fetch->plane[texture.place()] = plane;
+    const FetchQuartetCtx fetch = quartet_of(texture, plane);
+    FetchQuartetCtx* const before = quartet_in(ops, fetch.texels);
+    if (before != nullptr && takes_too(*before, fetch, texture.place())) return;
+    ops.emplace_back(fetch);
 }
 
 std::uint8_t texel_shift(const Texture& texture) {
@@ -145,10 +165,10 @@ bool same(const LevelAddressCtx& a, const LevelAddressCtx& b) {
         return x.width == y.width && x.height == y.height && x.offset == y.offset;
     };
     const bool at_corner = a.lambda == SampledCorners::kLevel;
-    return at_corner == (b.lambda == SampledCorners::kLevel) && a.mode_s == b.mode_s &&
-           a.mode_t == b.mode_t && a.mag_linear == b.mag_linear && a.min_linear == b.min_linear &&
-           a.choice == b.choice && a.rectangle == b.rectangle && a.pitch == b.pitch &&
-           a.layer_bytes == b.layer_bytes && a.level_count == b.level_count &&
+    return at_corner == (b.lambda == SampledCorners::kLevel) && a.texel_bytes == b.texel_bytes &&
+           a.mode_s == b.mode_s && a.mode_t == b.mode_t && a.mag_linear == b.mag_linear &&
+           a.min_linear == b.min_linear && a.choice == b.choice && a.rectangle == b.rectangle &&
+           a.pitch == b.pitch && a.layer_bytes == b.layer_bytes && a.level_count == b.level_count &&
            std::equal(a.levels, a.levels + a.level_count, b.levels, same_level);
 }
 
@@ -200,22 +220,26 @@ class LevelPlanner {
         const bool hilo = is_hilo(m_texture.format());
         const int out = hilo ? scratch(kFirst) : target.registers;
         const LevelAddressCtx first = m_address;
+        SharedLevels shared{first, m_at, bias(), m_texture.sampler().max_anisotropy, {}, 0,
+                            {},    0,    0};
+        if (has_probes(m_texture)) shared.probed = begin_probed(out);
         plan_level(out);
-        const std::size_t fetch = m_ops.size() - 1;
-        std::optional<std::size_t> ceiling;
+        shared.fetch = m_ops.size() - 1;
         if (blends_levels(m_texture) && !at_corner) {
-            const std::size_t blended = begin_blended(m_address.lambda);
+            shared.blended = begin_blended(m_address.lambda);
             m_address.choice = LevelChoice::ceiling;
             plan_level(scratch(kSecond));
-            ceiling = m_ops.size() - 1;
-            plan_blend(out, scratch(kSecond), m_address.lambda);
-            end_blended(blended);
+            shared.ceiling = m_ops.size() - 1;
+            m_ops.emplace_back(blend(out, scratch(kSecond), m_address.lambda));
+            end_blended(*shared.blended);
         }
+        shared.end = m_ops.size();
+        if (shared.probed) end_probed(*shared.probed);
         if (hilo) {
             m_ops.emplace_back(HiloCtx{out, target.values,
                                        static_cast<std::uint8_t>(m_texture.is_signed(0) ? 1 : 0)});
         }
-        if (may_share()) m_plan.levels = SharedLevels{first, m_at, bias(), fetch, ceiling};
+        if (may_share()) m_plan.levels = shared;
     }
 
     /// At the pixel's own coordinates.
@@ -250,33 +274,69 @@ class LevelPlanner {
     static constexpr int kFace = 0, kLambda = 1, kSliceWeight = 2, kFirst = 3, kSecond = 7,
                          kBehind = 23;
     // Scratch attribute planes.
-    static constexpr int kU = 0, kV = 1, kFootprint = 2;
+    static constexpr int kU = 0, kV = 1, kFootprint = 2, kProbes = 3, kStep = 4, kSum = 6;
 
     /// Planes of a dependent fetch may be others' later.
     [[nodiscard]] bool may_share() const {
         return m_at.interpolated && m_texture.target() != TextureTarget::three_d &&
-               !has_words(m_texture.format());
+               !is_hilo(m_texture.format());
     }
 
     [[nodiscard]] bool joins(const SharedLevels& shared) const {
         const bool cube = shared.address.face >= 0;
+        // Operations go between those of `shared`, and others must not move.
+        const bool inserts = has_words(m_texture.format()) || shared.probed;
         return may_share() && (m_texture.target() == TextureTarget::cube) == cube &&
                same(shared.coordinates, m_at) && same(shared.address, m_address) &&
                shared.bias == bias() &&
-               std::get<FetchCtx>(m_ops[shared.fetch]).count < FetchCtx::kMaxTextures;
+               shared.max_anisotropy == m_texture.sampler().max_anisotropy &&
+               shared.textures < SharedLevels::kMostTextures &&
+               !(inserts && m_ops.size() != shared.end);
     }
 
-    /// The fetches of `shared` take one more texture each. Its weights are still in place: samples
-    /// with levels that do not join end the sharing.
-    void join(const SharedLevels& shared, int out) {
-        auto& fetch = std::get<FetchCtx>(m_ops[shared.fetch]);
-        const int second = scratch(kSecond + 4 * fetch.count);
-        add_texture(fetch, m_texture, out);
-        if (!shared.ceiling) return;
-        add_texture(std::get<FetchCtx>(m_ops[*shared.ceiling]), m_texture, second);
-        const std::size_t blended = begin_blended(shared.address.lambda);
-        plan_blend(out, second, shared.address.lambda);
+    /// One texture more at the addresses of `shared`.
+    void join(SharedLevels& shared, int out) {
+        const int second = scratch(kSecond + 4 * shared.textures), lambda = shared.address.lambda;
+        if (shared.probed) add_to_mean(std::get<ProbedCtx>(m_ops[*shared.probed]).sum, out);
+        ++shared.textures;
+        shared.fetch = fetch_too(shared, shared.fetch, out);
+        if (!shared.blended) return;
+        shared.ceiling = fetch_too(shared, shared.ceiling, second);
+        if (m_ops.size() == shared.end)
+            return insert(shared, shared.end, blend(out, second, lambda));
+        const std::size_t blended = begin_blended(lambda);
+        m_ops.emplace_back(blend(out, second, lambda));
         end_blended(blended);
+    }
+
+    /// Texels from the addresses of operation `fetch`, by it or the next one, whose place is given.
+    std::size_t fetch_too(SharedLevels& shared, std::size_t fetch, int out) {
+        if (auto* const bytes = std::get_if<FetchCtx>(&m_ops[fetch])) {
+            add_texture(*bytes, m_texture, out);
+            return fetch;
+        }
+        if (m_texture.place() < 0) {
+            insert(shared, fetch + 1, FetchWordsCtx{m_texture.texels(), out, m_texture.pitch()});
+            return fetch + 1;
+        }
+        const FetchQuartetCtx more = quartet_of(m_texture, out);
+        auto* const quartet = std::get_if<FetchQuartetCtx>(&m_ops[fetch]);
+        if (quartet != nullptr && takes_too(*quartet, more, m_texture.place())) return fetch;
+        insert(shared, fetch + 1, more);
+        return fetch + 1;
+    }
+
+    /// Between the operations of `shared`, or at their end.
+    void insert(SharedLevels& shared, std::size_t at, const InputOp& op) {
+        m_ops.insert(m_ops.begin() + static_cast<std::ptrdiff_t>(at), op);
+        if (shared.probed) ++std::get<ProbedCtx>(m_ops[*shared.probed]).count;
+        if (shared.blended && *shared.blended >= at) {
+            ++*shared.blended;
+        } else if (shared.blended) {
+            ++std::get<BlendedCtx>(m_ops[*shared.blended]).count;
+        }
+        if (shared.ceiling >= at) ++shared.ceiling;
+        ++shared.end;
     }
 
     /// What is planned from here to end_blended() is for packets that blend by plane `weight`.
@@ -286,6 +346,41 @@ class LevelPlanner {
     }
     void end_blended(std::size_t begin) {
         std::get<BlendedCtx>(m_ops[begin]).count = static_cast<int>(m_ops.size() - begin - 1);
+    }
+
+    /// What is planned from here to end_probed() is for one probe: planes from `out` on get texels.
+    std::size_t begin_probed(int out) {
+        ProbedCtx probed{};
+        probed.point = {m_address.u,
+                        m_address.v,
+                        m_address.q,
+                        scratch_attribute(kStep),
+                        scratch_attribute(kProbes),
+                        scratch_attribute(kU),
+                        0};
+        probed.sum.probes = probed.point.probes;
+        probed.sum.sum = scratch_attribute(kSum);
+        add_to_mean(probed.sum, out);
+        m_ops.emplace_back(probed);
+        m_address.u = scratch_attribute(kU);
+        m_address.v = scratch_attribute(kV);
+        m_address.q = -1;
+        return m_ops.size() - 1;
+    }
+    void add_to_mean(ProbeSumCtx& sum, int out) const {
+        sum.doubled = static_cast<std::uint16_t>(sum.doubled | doubled() << sum.channels);
+        for (int c = 0; c < channels(); ++c)
+            sum.plane[sum.channels++] = static_cast<std::int16_t>(out + c);
+    }
+    void end_probed(std::size_t begin) {
+        std::get<ProbedCtx>(m_ops[begin]).count = static_cast<int>(m_ops.size() - begin - 1);
+    }
+
+    [[nodiscard]] int channels() const { return is_hilo(m_texture.format()) ? 2 : 4; }
+    /// Channels that come as even codes.
+    [[nodiscard]] std::uint8_t doubled() const {
+        const bool halves = !is_hilo(m_texture.format()) && m_plan.numbers == NumberModel::nine_bit;
+        return halves ? signed_channels(m_texture) : std::uint8_t{0};
     }
 
     /// 1/256.
@@ -323,7 +418,14 @@ class LevelPlanner {
         if (target == TextureTarget::one_d) footprint.scale[1] = 0.0F;
         if (target == TextureTarget::rectangle) footprint.scale[0] = footprint.scale[1] = 1.0F;
         if (cube) footprint.scale[0] = footprint.scale[1] = 0.5F * static_cast<float>(base.width);
-        if (m_at.interpolated) {
+        if (has_probes(m_texture)) {
+            m_ops.emplace_back(
+                ProbeExtentCtx{footprint,
+                               {},
+                               scratch_attribute(kProbes),
+                               scratch_attribute(kStep),
+                               static_cast<float>(m_texture.sampler().max_anisotropy)});
+        } else if (m_at.interpolated) {
             m_ops.emplace_back(PlaneFootprintCtx{footprint, {}});
         } else {
             m_ops.emplace_back(QuadFootprintCtx{footprint});
@@ -346,7 +448,7 @@ class LevelPlanner {
         m_address.behind = 1;
         m_ops.emplace_back(m_address);
         plan_fetch(scratch(kBehind));
-        plan_blend(out, scratch(kBehind), m_address.slice_weight);
+        m_ops.emplace_back(blend(out, scratch(kBehind), m_address.slice_weight));
     }
 
     void plan_fetch(int out) {
@@ -363,12 +465,14 @@ class LevelPlanner {
         }
     }
 
-    void plan_blend(int out, int other, int weight) {
-        const bool hilo = is_hilo(m_texture.format());
-        const bool doubled = !hilo && m_plan.numbers == NumberModel::nine_bit;
-        m_ops.emplace_back(BlendLevelsCtx{out, other, out, hilo ? 2 : 4, weight,
-                                          doubled ? signed_channels(m_texture) : std::uint8_t{0},
-                                          static_cast<std::uint8_t>(hilo ? 1 : 0)});
+    [[nodiscard]] BlendLevelsCtx blend(int out, int other, int weight) const {
+        return {out,
+                other,
+                out,
+                channels(),
+                weight,
+                doubled(),
+                static_cast<std::uint8_t>(is_hilo(m_texture.format()) ? 1 : 0)};
     }
 
     const Texture& m_texture;
@@ -404,6 +508,13 @@ void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
             ErrorCode::bad_program,
             "a table at the coordinates of a texture unit, expected a fetch between general "
             "stages");
+    }
+    if (has_probes(texture) && (plan.corners || !coordinates.interpolated)) {
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("max_anisotropy {} of a texture {}, expected 1",
+                                texture.sampler().max_anisotropy,
+                                plan.corners ? "on a machine with filter_order = after"
+                                             : "at coordinates that are not interpolated"));
     }
     const bool flat =
         texture.target() != TextureTarget::cube && texture.target() != TextureTarget::three_d;

@@ -27,17 +27,24 @@ struct SampleTarget {
 };
 
 /// Scratch planes of any one sample.
-inline constexpr int kSampleAttributes = 3;
+inline constexpr int kSampleAttributes = 6 + ProbeSumCtx::kMaxChannels;
 inline constexpr int kSamplePlanes = 27;
 
-/// A sample with levels that others may join: what their addresses have in common, and which
-/// operations fetch for them.
+/// A sample with levels that others may join: what their addresses have in common, and where the
+/// operations are that they add to.
 struct SharedLevels {
+    static constexpr int kMostTextures = 4;
+
     LevelAddressCtx address;
     SampleCoordinates coordinates;
-    std::int32_t bias;                   ///< of the level of detail, 1/256
-    std::size_t fetch;                   ///< operation with the first level's texels
-    std::optional<std::size_t> ceiling;  ///< with those of the level that is blended with it
+    std::int32_t bias;  ///< of the level of detail, 1/256
+    int max_anisotropy;
+    std::optional<std::size_t> probed;   ///< ProbedCtx
+    std::size_t fetch;                   ///< the last one with texels of the first level
+    std::optional<std::size_t> blended;  ///< BlendedCtx
+    std::size_t ceiling;                 ///< with `blended`: the last with texels of that level
+    std::size_t end;                     ///< behind all of them
+    int textures = 1;                    ///< so far
 };
 
 /// Coordinates that stand at a texel centre of the finest map instead of at the pixel.
@@ -78,9 +85,10 @@ TexelCornerCtx plan_texel_corner(const SampledCorners& corners, int weight, int 
 /// Operations that sample a texture, added to `ops`. At a corner, maps that have the sides, levels
 /// and filter of the finest one give the texel that is there; others are filtered there, in the
 /// pixel's level of detail. Samples in a row with the same interpolated
-/// coordinates, sizes and sampler share addresses, levels of detail and, of bytes, up to four
-/// textures a fetch; of 3D textures, and of words with levels, each is alone. Throws
-/// Error{bad_program} for a texture of more coordinates than there are and for rgba16 in nine bits.
+/// coordinates, sizes and sampler share addresses, levels of detail, probes and, of bytes, up to
+/// four textures a fetch; 3D textures and hilo ones with levels are alone. Throws
+/// Error{bad_program} for a texture of more coordinates than there are, for rgba16 in nine bits,
+/// and for probes at corners or at coordinates that nobody interpolates.
 void plan_sample(const Texture& texture, const SampleCoordinates& coordinates,
                  const SampleTarget& target, SamplePlan& plan, std::vector<InputOp>& ops);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,20 +22,21 @@ int codes_of(const Packet& packet, int plane) {
 
 /// The same addresses from the plain stage, where all of them are in one flat level.
 std::optional<AddressCtx> in_base_level(const LevelAddressCtx& c, const Packet& packet) {
-    const bool flat = c.face < 0 && c.r < 0 && (c.texel_bytes == 4 || c.texel_bytes == 8);
+    const bool flat = c.face < 0 && c.r < 0;
     if (!flat || c.choice == LevelChoice::ceiling) return {};
     if (c.lambda >= 0 && codes_of(packet, c.lambda) != 0) return {};
-    return AddressCtx{c.u,
-                      c.v,
-                      c.q,
-                      c.levels[0].width,
-                      c.levels[0].height,
-                      c.pitch,
-                      c.mode_s,
-                      c.mode_t,
-                      c.mag_linear,
-                      c.rectangle,
-                      static_cast<std::uint8_t>(c.texel_bytes == 8 ? 3 : 2)};
+    return AddressCtx{
+        c.u,
+        c.v,
+        c.q,
+        c.levels[0].width,
+        c.levels[0].height,
+        c.pitch,
+        c.mode_s,
+        c.mode_t,
+        c.mag_linear,
+        c.rectangle,
+        static_cast<std::uint8_t>(std::countr_zero(static_cast<unsigned>(c.texel_bytes)))};
 }
 
 }  // namespace
@@ -96,14 +98,55 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
         void operator()(const HiloCtx& c) const { k.hilo(p, c); }
         void operator()(const BlendedCtx& /*c*/) const {}  // feed_inputs() may leave some out
+        void operator()(const ProbeExtentCtx& c) const {
+            ProbeExtentCtx of_packet = c;
+            of_packet.runs = runs;
+            k.probe_extent(p, of_packet);
+        }
+        void operator()(const ProbedCtx& /*c*/) const {}  // feed_inputs() repeats some
     };
     std::visit(FeedInput{kernels, runs, packet, numbers == NumberModel::nine_bit}, op);
 }
+
+namespace {
+
+/// The most probes that a fragment of the packet has. Bits of positive floats are in their order,
+/// and the largest of integers is quickly found.
+int most_probes(const Packet& packet, int attribute) {
+    const float* const probes = packet.attributes + attribute * kAttributeStride;
+    std::int32_t most = 0;
+    for (int i = 0; i < packet.count; ++i)
+        most = std::max(most, std::bit_cast<std::int32_t>(probes[i]));
+    return static_cast<int>(std::bit_cast<float>(most));
+}
+
+/// `ops` once for every probe.
+void feed_probes(const ProbedCtx& probed, std::span<const InputOp> ops, NumberModel numbers,
+                 const KernelTable& kernels, const AttributesCtx& runs, Packet& packet) {
+    const int probes = most_probes(packet, probed.point.probes);
+    ProbePointCtx point = probed.point;
+    ProbeSumCtx sum = probed.sum;
+    for (int k = 0; k < probes; ++k) {
+        point.probe = sum.probe = k;
+        kernels.probe_point(packet, point);
+        feed_inputs(ops, numbers, kernels, runs, packet);
+        if (probes > 1) kernels.probe_sum(packet, sum);
+    }
+    if (probes > 1) kernels.probe_mean(packet, sum);
+}
+
+}  // namespace
 
 void feed_inputs(std::span<const InputOp> ops, NumberModel numbers, const KernelTable& kernels,
                  const AttributesCtx& runs, Packet& packet) {
     int known = -1, weights = 0;  // of register plane `known`
     for (std::size_t i = 0; i < ops.size(); ++i) {
+        if (const auto* probed = std::get_if<ProbedCtx>(&ops[i])) {
+            const auto count = static_cast<std::size_t>(probed->count);
+            feed_probes(*probed, ops.subspan(i + 1, count), numbers, kernels, runs, packet);
+            i += count;
+            continue;
+        }
         const auto* blended = std::get_if<BlendedCtx>(&ops[i]);
         if (blended == nullptr) {
             if (std::holds_alternative<LevelOfDetailCtx>(ops[i])) known = -1;

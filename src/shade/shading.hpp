@@ -105,7 +105,8 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
 void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kernels,
                 const AttributesCtx& runs, Packet& packet);
 
-/// One after the other, but for those that a packet without blended levels does without.
+/// One after the other, but for those that a packet without blended levels does without, and those
+/// that bring probes, which come again for each of them.
 void feed_inputs(std::span<const InputOp> ops, NumberModel numbers, const KernelTable& kernels,
                  const AttributesCtx& runs, Packet& packet);
 

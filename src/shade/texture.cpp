@@ -79,6 +79,11 @@ void check_image(const Image& image) {
 /// What the target asks of level 0.
 void check_target(int width, int height, const TextureDescription& d, bool several_levels) {
     const Sampler& s = d.sampler;
+    const bool probed = d.target == TextureTarget::two_d;
+    if (s.max_anisotropy < 1 || s.max_anisotropy > (probed ? Sampler::kMostProbes : 1)) {
+        fail(fmt::format("max_anisotropy {}, expected 1{}", s.max_anisotropy,
+                         probed ? " .. 16" : " for another target than two_d"));
+    }
     if (!(s.lod_bias >= -16.0F && s.lod_bias < 16.0F)) {
         fail(fmt::format("lod_bias {}, expected at least -16, less than 16", s.lod_bias));
     }

@@ -147,6 +147,8 @@ void ExactInputs::feed(const InputOp& op) {
                                               c.out + k, false, to.m_rounding.filter);
             }
         }
+        void operator()(const ProbeExtentCtx& c) const { to.measure(c); }
+        void operator()(const ProbedCtx& /*c*/) const {}   // the caller's
         void operator()(const BlendedCtx& /*c*/) const {}  // a fragment alone goes through all
         void operator()(const PrefetchQuartetCtx& /*c*/) const {}  // of whole packets
         void operator()(const HiloCtx& c) const {
@@ -213,6 +215,41 @@ void ExactInputs::feed(const InputOp& op) {
         }
     };
     std::visit(Feed{*this}, op);
+}
+
+void ExactInputs::feed_all(std::span<const InputOp> ops) {
+    for (std::size_t i = 0; i < ops.size(); ++i) {
+        if (const auto* probed = std::get_if<ProbedCtx>(&ops[i])) {
+            const auto count = static_cast<std::size_t>(probed->count);
+            feed_probes(*probed, ops.subspan(i + 1, count));
+            i += count;
+        } else {
+            feed(ops[i]);
+        }
+    }
+}
+
+void ExactInputs::feed_probes(const ProbedCtx& probed, std::span<const InputOp> ops) {
+    const ProbePointCtx& point = probed.point;
+    const int probes = static_cast<int>(attribute(point.probes));
+    const double q = point.q < 0 ? 1.0 : attribute(point.q);
+    const glm::dvec2 pixel = glm::dvec2(attribute(point.u), attribute(point.v)) / q;
+    const glm::dvec2 step(attribute(point.step), attribute(point.step + 1));
+    std::array<double, ProbeSumCtx::kMaxChannels> sums{};
+    const auto channels = static_cast<std::size_t>(probed.sum.channels);
+    for (int k = 0; k < probes; ++k) {
+        const glm::dvec2 at = pixel + step * (k - 0.5 * (probes - 1));
+        set_attribute(point.to, at.x);
+        set_attribute(point.to + 1, at.y);
+        feed_all(ops);
+        for (std::size_t c = 0; c < channels; ++c) sums.at(c) += plane(probed.sum.plane[c]);
+    }
+    if (probes == 1) return;
+    for (std::size_t c = 0; c < channels; ++c) {
+        const int to = probed.sum.plane[c];
+        m_planes[static_cast<std::size_t>(to)] =
+            rounded(sums.at(c) / probes, to, false, m_rounding.filter);
+    }
 }
 
 void ExactInputs::light(const LightingCtx& ctx) {
@@ -327,7 +364,8 @@ void ExactInputs::locate(const LevelAddressCtx& ctx) {
         ctx, static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
     const LevelAddressCtx::Level& level = ctx.levels[m_level];
     const bool rectangle = ctx.rectangle != 0;
-    m_is_table = ctx.u >= kMaxInterpolated && ctx.face < 0;
+    const bool of_sample = ctx.u >= kSampleScratch && ctx.u < kUnitAttributes;  // a face, a probe
+    m_is_table = ctx.u >= kMaxInterpolated && !of_sample;
     m_column = table_position(m_u, level.width, ctx.mode_s, linear, rectangle);
     m_row = table_position(m_v, level.height, ctx.mode_t, linear, rectangle);
     m_layer = ctx.face < 0 ? 0 : static_cast<int>(plane(ctx.face));
@@ -361,6 +399,11 @@ FacePoint face_point(const Changing& s, const Changing& t, const Changing& r) {
     return r.value < 0.0 ? FacePoint{5, -s, -t, -r} : FacePoint{4, s, -t, r};
 }
 
+/// How far the coordinate c / d moves along an axis of the screen.
+double moved(const Changing& c, const Changing& d, double Changing::*along) {
+    return (c.*along - c.value / d.value * (d.*along)) / d.value;
+}
+
 }  // namespace
 
 void ExactInputs::find_face(const CubeFaceCtx& ctx) {
@@ -388,14 +431,37 @@ void ExactInputs::measure(const FootprintCtx& ctx) {
     double largest = 0.0;
     for (double Changing::*along : {&Changing::dx, &Changing::dy}) {
         const auto texels = [&](const Changing& c, float scale) {
-            return (c.*along - c.value / d.value * (d.*along)) / d.value *
-                   static_cast<double>(scale);
+            return moved(c, d, along) * static_cast<double>(scale);
         };
         const double x = texels(s, ctx.scale[0]), y = texels(t, ctx.scale[1]);
         const double z = ctx.cube == 0 && ctx.r >= 0 ? texels(over_w(ctx.r), ctx.scale[2]) : 0.0;
         largest = std::max(largest, x * x + y * y + z * z);
     }
     m_attributes[static_cast<std::size_t>(ctx.out)] = largest;
+}
+
+void ExactInputs::measure(const ProbeExtentCtx& ctx) {
+    const auto over_w = [&](int attribute) {
+        const auto k = static_cast<std::size_t>(attribute + 1);
+        const double here = m_over_w[0][k];
+        return Changing{here, m_over_w[1][k] - here, m_over_w[2][k] - here};
+    };
+    const FootprintCtx& how = ctx.footprint;
+    const Changing s = over_w(how.s), t = over_w(how.t), d = over_w(how.q);
+    const auto step = [&](double Changing::*along) {
+        return glm::dvec2(moved(s, d, along), moved(t, d, along));
+    };
+    const glm::dvec2 across = step(&Changing::dx), down = step(&Changing::dy);
+    const glm::dvec2 scale(how.scale[0], how.scale[1]);
+    const double x = glm::length(across * scale), y = glm::length(down * scale);
+    const double longest = std::max(x, y), shortest = std::max(std::min(x, y), 1.0);
+    const double n =
+        std::clamp(std::ceil(longest / shortest - 0x1p-8), 1.0, static_cast<double>(ctx.most));
+    const glm::dvec2 apart = n > 1.0 ? (x > y ? across : down) / (n + 1.0) : glm::dvec2(0.0);
+    set_attribute(how.out, longest * longest / (n * n));
+    set_attribute(ctx.probes, n);
+    set_attribute(ctx.step, apart.x);
+    set_attribute(ctx.step + 1, apart.y);
 }
 
 ExactInputs::Position ExactInputs::table_position(double u, int size, AddressMode mode, bool linear,

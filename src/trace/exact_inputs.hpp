@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/quantiser.hpp"
@@ -35,8 +36,13 @@ class ExactInputs {
                 std::int32_t x, std::int32_t y, const InputRounding& rounding = {});
 
     /// Operations come in the order of shading.inputs. What a quad covers, QuadFootprintCtx, is for
-    /// the caller to set.
+    /// the caller to set, and ProbedCtx for feed_probes().
     void feed(const InputOp& op);
+    /// Those of shading.inputs one after the other, for each of this fragment's probes where there
+    /// are some.
+    void feed_all(std::span<const InputOp> ops);
+    /// `ops` once for every probe, and the means of what they bring.
+    void feed_probes(const ProbedCtx& probed, std::span<const InputOp> ops);
     /// Registers before the program; units that are off read (0, 0, 0, 1), those without a result
     /// (0, 0, 0, 0).
     [[nodiscard]] RealRegisters registers() const;
@@ -66,6 +72,7 @@ class ExactInputs {
     void locate(const LevelAddressCtx& ctx);
     void find_face(const CubeFaceCtx& ctx);
     void measure(const FootprintCtx& ctx);
+    void measure(const ProbeExtentCtx& ctx);
     void fetch(const Texture& texture, int plane, int channels);
 
     /// A texel of an axis and the weight of its neighbour.

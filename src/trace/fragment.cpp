@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "shade/attributes.hpp"
@@ -107,8 +108,13 @@ class InputTracer {
     void run(TracedFragment& out) {
         for (std::size_t i = 0; i < m_shading.inputs.size(); ++i) {
             const InputOp& op = m_shading.inputs[i];
-            feed_input(op, m_shading.program.numbers, table_reference(), m_packet.runs(),
-                       m_packet.packet());
+            if (const auto* probed = std::get_if<ProbedCtx>(&op)) {
+                const auto count = static_cast<std::size_t>(probed->count);
+                run_probes(*probed, std::span(m_shading.inputs).subspan(i + 1, count), out);
+                i += count;
+                continue;
+            }
+            feed_machine(op);
             feed_exactly(op, m_packet, m_exact);
             add_unit_numbers(i, out);
             note(op, out);
@@ -146,6 +152,57 @@ class InputTracer {
     }
 
   private:
+    void feed_machine(const InputOp& op) {
+        feed_input(op, m_shading.program.numbers, table_reference(), m_packet.runs(),
+                   m_packet.packet());
+    }
+
+    /// `ops` for every probe of the fragment; neighbours of its quad need no more.
+    void run_probes(const ProbedCtx& probed, std::span<const InputOp> ops, TracedFragment& out) {
+        const KernelTable& kernels = table_reference();
+        m_exact.feed_probes(probed, ops);
+        const int probes = static_cast<int>(m_packet.attribute(probed.point.probes));
+        ProbePointCtx point = probed.point;
+        ProbeSumCtx sum = probed.sum;
+        for (m_probe = 0; m_probe < probes; ++m_probe) {
+            point.probe = sum.probe = m_probe;
+            kernels.probe_point(m_packet.packet(), point);
+            for (const InputOp& op : ops) {
+                feed_machine(op);
+                note(op, out);
+            }
+            kernels.probe_sum(m_packet.packet(), sum);
+        }
+        m_probe = 0;
+        kernels.probe_mean(m_packet.packet(), sum);
+        for (int c = 0; c < sum.channels; ++c)
+            if (const std::optional<int> unit = unit_of_plane(sum.plane[c]))
+                set_probes(probed.point, sum.plane[c], fetch_of(*unit, out));
+    }
+
+    /// Of a fetch whose probes have all been looked at: where the pixel is, how they lie, and the
+    /// mean.
+    void set_probes(const ProbePointCtx& point, int plane, TracedFetch& fetch) const {
+        const auto coordinate = [&](int k) {
+            const float q = point.q < 0 ? 1.0F : m_packet.attribute(point.q);
+            const double exact_q = point.q < 0 ? 1.0 : m_exact.attribute(point.q);
+            return number(m_packet.attribute(k) / q, m_exact.attribute(k) / exact_q);
+        };
+        const auto value = [&](int k) {
+            return number(m_packet.attribute(k), m_exact.attribute(k));
+        };
+        fetch.u = coordinate(point.u);
+        fetch.v = coordinate(point.v);
+        fetch.probes = value(point.probes);
+        fetch.apart = {value(point.step), value(point.step + 1)};
+        set_color(plane, fetch);
+    }
+
+    static TracedFetch& fetch_of(int unit, TracedFragment& out) {
+        return *std::find_if(out.fetches.begin(), out.fetches.end(),
+                             [&](const TracedFetch& f) { return f.unit == unit; });
+    }
+
     void add_unit_numbers(std::size_t op, TracedFragment& out) const {
         const int unit = unit_of_operation(m_shading, op);
         const auto numbers = unit_numbers(m_shading.inputs[op], m_shading);
@@ -214,6 +271,10 @@ class InputTracer {
             m_scratch[plane] = {taps};
             return;
         }
+        if (m_probe > 0) {
+            fetch_of(*unit, out).further.push_back(taps);
+            return;
+        }
         TracedFetch fetch;
         static_cast<TracedTaps&>(fetch) = taps;
         fetch.unit = *unit;
@@ -234,12 +295,10 @@ class InputTracer {
 
     void add_blend(const BlendLevelsCtx& ctx, TracedFragment& out) {
         const std::optional<int> unit = unit_of_plane(ctx.out);
-        const auto fetch = std::find_if(out.fetches.begin(), out.fetches.end(),
-                                        [&](const TracedFetch& f) { return unit == f.unit; });
-        std::vector<TracedTaps>& to = unit ? fetch->further : m_scratch[ctx.out];
+        std::vector<TracedTaps>& to = unit ? fetch_of(*unit, out).further : m_scratch[ctx.out];
         const std::vector<TracedTaps>& from = m_scratch[ctx.b];
         to.insert(to.end(), from.begin(), from.end());
-        if (unit) set_color(ctx.out, *fetch);
+        if (unit) set_color(ctx.out, fetch_of(*unit, out));
     }
 
     [[nodiscard]] TracedTaps taps_of(const Texture& texture) const {
@@ -273,6 +332,7 @@ class InputTracer {
     ExactInputs& m_exact;
     std::map<int, std::vector<TracedTaps>> m_scratch;  ///< what scratch planes were made from
     LevelAddressCtx m_level{};                         ///< of plain addresses the coordinates only
+    int m_probe = 0;                                   ///< which one is looked at
 };
 
 /// Serves the fetches between stages in their order.

@@ -81,7 +81,13 @@ OptionGroup material_options(PictureOptions& picture) {
               .open_words = true,
               .set = [&picture](const std::string& option, const std::string& text) {
                   picture.mipmaps = parse_mipmaps(option, text);
-              }}}};
+              }},
+             {.names = "--max-anisotropy",
+              .value = "N",
+              .text = "Most probes along the longer axis of what a pixel covers, 1 .. 16, of every "
+                      "reflectance model with mipmaps",
+              .normal = "the material's",
+              .set = number_to(picture.max_anisotropy, 1, Sampler::kMostProbes)}}};
 }
 
 OptionGroup machine_options(PictureOptions& picture) {

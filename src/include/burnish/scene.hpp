@@ -156,8 +156,8 @@ struct MaterialMipmaps {
     /// Moments of clean, lean and moments are stored in so many bits: 8, 16, 32; 0: in double
     /// precision.
     int bits = 0;
-    /// Most probes along the longer axis of what a pixel covers, 1 .. 16; 1: one level for both
-    /// axes. More than 1 is for the double-precision renderer alone.
+    /// Most probes along the longer axis of what a pixel covers, 1 .. Sampler::kMostProbes; 1: one
+    /// level for both axes. Where the finest map's sampler has more, that counts.
     int max_anisotropy = 1;
 
     friend bool operator==(const MaterialMipmaps&, const MaterialMipmaps&) = default;

@@ -89,6 +89,11 @@ struct Sampler {
     /// r, g, b, a of clamp_to_border, clamped to the range of the format.
     std::array<float, 4> border{};
     TexelSpan span_s = TexelSpan::edges, span_t = TexelSpan::edges;
+    /// Most probes along the longer axis of what a pixel covers, 1 .. kMostProbes, where `filter`
+    /// looks at levels; two_d only.
+    int max_anisotropy = 1;
+
+    static constexpr int kMostProbes = 16;
 
     [[nodiscard]] constexpr bool mag_is_linear() const noexcept {
         return is_linear_within(mag_filter.value_or(filter));

@@ -54,8 +54,13 @@ struct TracedFetch : TracedTaps {
     TracedNumber u, v;                ///< after the division by q; v grows downward
     std::optional<TracedNumber> r;    ///< of 3D textures, the same
     std::optional<TracedNumber> lod;  ///< level of detail as it was used, where it was looked at
-    std::vector<TracedTaps> further;  ///< taps of slices behind and of further levels
-    std::array<int, 4> codes{};       ///< as the register gets them
+    /// Places along the longer axis of what the pixel covers whose mean the colour is, and how far
+    /// in u and v from one to the next. Both numbers are 1 without max_anisotropy.
+    TracedNumber probes{1.0, 1.0};
+    std::array<TracedNumber, 2> apart{};
+    /// Taps of slices behind, of further levels and, probe by probe, of all but the first.
+    std::vector<TracedTaps> further;
+    std::array<int, 4> codes{};  ///< as the register gets them
     std::array<TracedNumber, 4> color{};
 };
 
