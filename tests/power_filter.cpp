@@ -1,14 +1,18 @@
+// Tables of functions that change from pixel to pixel: in double precision and on machines.
 #include "reference/power_filter.hpp"
 
 #include <gtest/gtest.h>
 #include <burnish/materials.hpp>
+#include <burnish/program_text.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
 
 #include <cmath>
 #include <cstring>
 
+#include "core/cpu.hpp"
 #include "tests/scene_file.hpp"
+#include "tests/textured_quad.hpp"
 
 namespace burnish {
 namespace {
@@ -50,7 +54,7 @@ TEST(MipPower, LevelsAreMeansOfTwo) {
 }
 
 /// A sphere with a lobe narrower than a pixel.
-Framebuffer glint(TableFilter filter, int samples, float turn = 0.0F) {
+Scene glint_scene(TableFilter filter, float turn) {
     Scene scene;
     scene.machine = machine_profile("double");
     scene.machine.table_filter = filter;
@@ -67,8 +71,12 @@ Framebuffer glint(TableFilter filter, int samples, float turn = 0.0F) {
     object.geometry = Mesh(shapes::sphere(48, 24));
     object.material = std::make_shared<const Material>(material);
     scene.objects.push_back(std::move(object));
+    return scene;
+}
+
+Framebuffer glint(TableFilter filter, int samples, float turn = 0.0F) {
     Framebuffer frame(32, 32, PixelFormat::rgba32f);
-    Renderer({.threads = 1, .double_samples = samples}).render(scene, frame);
+    Renderer({.threads = 1, .double_samples = samples}).render(glint_scene(filter, turn), frame);
     return frame;
 }
 
@@ -99,13 +107,107 @@ TEST(TableFilter, TheExactMeanComesNearerToManySamples) {
     EXPECT_LT(exact, 0.8 * mip);
 }
 
+// ---- machines
+
+/// A table whose level k is k / 16 everywhere.
+TexturePtr level_numbers(int size) {
+    std::vector<Image8> levels;
+    for (; size > 0; size /= 2)
+        levels.push_back(plain_image(size, 1, {16 * static_cast<int>(levels.size()), 0, 0, 255}));
+    Sampler sampler;
+    sampler.filter = Filter::linear_mipmap_linear;
+    sampler.wrap_s = Wrap::clamp_to_edge;
+    return make_texture(levels, {.target = TextureTarget::one_d, .sampler = sampler});
+}
+
+/// 64 x 64 pixels; across them the coordinate of a table grows from `left` by `across`, downwards
+/// by `down`. Red is the level that was looked at, in 1/16.
+Framebuffer levels_seen(float left, float across, float down) {
+    constexpr float kSide = 64.0F;
+    Scene scene = textured_scene(level_numbers(256), 64, 64, flat(0.0F, 1.0F), "ideal");
+    auto material = std::make_shared<Material>();
+    material->program.emplace();
+    material->program->combiners = *parse_combiners(R"(!!BRN1.0
+        fetch { tex0 = table_1d(col0.r); }
+        { rgb { spare0 = tex0; } }
+        out.rgb = spare0; out.a = one;)")
+                                        .program;
+    material->program->units = {level_numbers(256)};
+    auto& raw = std::get<RawVertices>(scene.objects[0].geometry);
+    for (RawVertex& v : raw.vertices)
+        v.color0.x = left + across * v.position.x / kSide + down * v.position.y / kSide;
+    scene.objects[0].material = std::move(material);
+    return draw(scene);
+}
+
+// Texels of 256: a step of 1/64 is 4 of them, level 2; a pixel's longer step counts, and what the
+// triangle has beyond its edges is no seam: along the quad's diagonal nothing changes.
+TEST(TableLevels, AreThoseOfTheStepBetweenPixels) {
+    struct Ramp {
+        float left, across, down;
+        double level;
+    };
+    for (const Ramp& ramp : {Ramp{0.3F, 0.0F, 0.0F, 0.0}, Ramp{0.0F, 0.25F, 0.0F, 0.0},
+                             Ramp{0.0F, 1.0F, 0.0F, 2.0}, Ramp{0.0F, 0.0F, 0.5F, 1.0},
+                             Ramp{0.5F, 0.5F, -0.25F, 1.0}, Ramp{0.0F, 0.25F, 0.75F, 1.585}}) {
+        const Framebuffer frame = levels_seen(ramp.left, ramp.across, ramp.down);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                ASSERT_NEAR(bytes_at(frame, x, y)[0], 16.0 * ramp.level, 0.51)
+                    << x << ", " << y << ", level " << ramp.level;
+    }
+}
+
+/// A sphere of a lobe that is narrower than a pixel, on a machine.
+Scene small_sphere(TableFilter filter, const char* profile = "ideal") {
+    Scene scene = glint_scene(filter, 0.0F);
+    scene.machine = machine_profile(profile);
+    scene.machine.table_filter = filter;
+    scene.machine.multipass = scene.machine.numbers == NumberModel::nine_bit;
+    return scene;
+}
+
+bool same(const Framebuffer& a, const Framebuffer& b) {
+    for (int y = 0; y < a.height(); ++y)
+        if (std::memcmp(a.row(y), b.row(y), 4 * static_cast<std::size_t>(a.width())) != 0)
+            return false;
+    return true;
+}
+
+TEST(TableFilter, HasTheSameBitsForEveryInstructionSetAndAnyThreads) {
+    for (const char* profile : {"ideal", "nv2a"}) {
+        const Scene scene = small_sphere(TableFilter::mip, profile);
+        Framebuffer want(150, 100);
+        Renderer({.threads = 1, .isa = "reference"}).render(scene, want);
+        Framebuffer point(150, 100);
+        Renderer({.threads = 1}).render(small_sphere(TableFilter::point, profile), point);
+        EXPECT_FALSE(same(point, want)) << profile << ": nothing is filtered";
+        for (const KernelTable* table : available_tables()) {
+            for (const int threads : {1, 3}) {
+                Framebuffer frame(150, 100);
+                Renderer({.threads = threads, .isa = table->isa}).render(scene, frame);
+                EXPECT_TRUE(same(frame, want)) << profile << ", " << table->isa;
+            }
+        }
+    }
+}
+
 class TableFilterKey : public SceneFile {};
 
-TEST_F(TableFilterKey, IsOfProfileDouble) {
-    const std::string exact = "table_filter = \"exact\"\n";
-    EXPECT_EQ(scene("[machine]\nprofile = \"double\"\n" + exact).machine.table_filter,
-              TableFilter::exact);
-    EXPECT_SAYS(complaint_of([&] { scene("[machine]\n" + exact); }), "expected profile = double");
+TEST_F(TableFilterKey, AsksForAMachineThatLooksTablesUp) {
+    const auto filter = [&](const std::string& machine) {
+        return scene("[machine]\n" + machine).machine.table_filter;
+    };
+    const auto complaint = [&](const std::string& machine) {
+        return complaint_of([&] { filter(machine); });
+    };
+    EXPECT_EQ(filter("profile = \"double\"\ntable_filter = \"exact\"\n"), TableFilter::exact);
+    const std::string mip = "table_filter = \"mip\"\n";
+    EXPECT_EQ(filter(mip), TableFilter::mip);
+    EXPECT_EQ(filter("profile = \"nv2a\"\nmultipass = true\n" + mip), TableFilter::mip);
+    EXPECT_SAYS(complaint("profile = \"nv2a\"\n" + mip), "looks no tables up");
+    EXPECT_SAYS(complaint("profile = \"geforce256\"\nmultipass = true\n" + mip),
+                "looks no tables up");
 }
 
 }  // namespace

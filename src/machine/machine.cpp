@@ -90,6 +90,22 @@ void check_half_vector(const Machine& machine) {
     }
 }
 
+void check_table_filter(const Machine& machine) {
+    if (machine.table_filter == TableFilter::point || machine.double_precision) return;
+    const bool has_tables =
+        machine.stage_fetches ||
+        (machine.multipass && machine.texture_operations != TextureOperations::plain);
+    if (!has_tables) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("table_filter other than point on '{}', which looks no tables up, "
+                                "expected stage_fetches, or multipass with dependent fetches",
+                                machine.name));
+    }
+    if (machine.table_filter == TableFilter::exact) {
+        throw Error(ErrorCode::bad_option, "table_filter = exact, expected profile = double");
+    }
+}
+
 }  // namespace
 
 void choose_half_vector(Machine& machine, std::string_view word) {
@@ -132,11 +148,7 @@ void Machine::validate() const {
                     "half vectors of profile double are computed at every sample, expected "
                     "half_vector = pixel");
     }
-    if (!double_precision && table_filter != TableFilter::point) {
-        throw Error(ErrorCode::bad_option,
-                    "table_filter other than point, expected profile = double: tables of machines "
-                    "have no mip levels");
-    }
+    check_table_filter(*this);
     if (numbers == NumberModel::nine_bit || double_precision) return;
     const auto check_default = [](const char* field, bool is_default) {
         if (!is_default) {

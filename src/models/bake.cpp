@@ -62,7 +62,7 @@ class TexelImage {
     std::vector<Image16> m_words;
 };
 
-TexturePtr table_texture(const PlanTable& table, TexelCoding coding) {
+TexturePtr table_texture(const PlanTable& table, TexelCoding coding, TableFilter filter) {
     const int width = table.axes[0].size;
     const int height = table.axes.size() == 2 ? table.axes[1].size : 1;
     TexelImage image(coding);
@@ -78,15 +78,22 @@ TexturePtr table_texture(const PlanTable& table, TexelCoding coding) {
     Sampler sampler;
     // A nine-bit coordinate has a texel of its own.
     sampler.filter = is_words ? Filter::linear : Filter::nearest;
+    const bool has_levels = filter == TableFilter::mip;
+    if (has_levels) {
+        sampler.mag_filter = sampler.filter;
+        sampler.filter = Filter::linear_mipmap_linear;
+    }
     sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     const auto span = [&](std::size_t axis) {
         return table.axes[axis].is_signed ? TexelSpan::signed_centers : TexelSpan::centers;
     };
     sampler.span_s = span(0);
     if (height > 1) sampler.span_t = span(1);
-    TexturePtr texture = image.texture(
-        {.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d, .sampler = sampler});
-    return is_words ? Texture::table(*texture) : texture;
+    TexturePtr texture =
+        image.texture({.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d,
+                       .sampler = sampler,
+                       .box_mipmaps = has_levels});
+    return is_words && !has_levels ? Texture::table(*texture) : texture;
 }
 
 /// How the codes of a quantity are read.
@@ -147,7 +154,7 @@ TexelCoding texel_coding(NumberModel numbers) {
 }
 
 BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
-                   TexelCoding coding) {
+                   TexelCoding coding, TableFilter filter) {
     const TexelSource& source = texels.source();
     BakedTextures baked;
     baked.units.resize(schedule.material.units.size());
@@ -188,7 +195,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
     }
     for (std::size_t i = 0; i < plan.tables.size(); ++i) {
         baked.units[static_cast<std::size_t>(schedule.tables[i])] =
-            table_texture(plan.tables[i], coding);
+            table_texture(plan.tables[i], coding, filter);
     }
     return baked;
 }

@@ -102,9 +102,9 @@ CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Mach
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
     const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges(), tables);
     Schedule scheduled = schedule(plan, room, machine);
-    BakedTextures baked =
-        bake(plan, scheduled, terms.texels(),
-             task.fine_tables ? TexelCoding::fine : texel_coding(machine.numbers));
+    BakedTextures baked = bake(plan, scheduled, terms.texels(),
+                               task.fine_tables ? TexelCoding::fine : texel_coding(machine.numbers),
+                               machine.table_filter);
 
     CompiledModel compiled;
     compiled.program = std::move(scheduled.material);

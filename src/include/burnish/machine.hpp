@@ -81,11 +81,12 @@ enum class TextureOperations {
     all,    ///< NV_texture_shader3, too
 };
 
-/// How max(0, s)^m of the Blinn-Phong family is filtered where s changes from sample to sample.
+/// How the tables of reflectance models are filtered where their coordinates change from pixel to
+/// pixel (docs/mipmaps.md); in double precision, max(0, s)^m of the Blinn-Phong family.
 enum class TableFilter {
     point,  ///< not at all
-    mip,    ///< mip levels of a table of 256 values
-    exact,  ///< the mean over what s goes through, by the power's integral
+    mip,    ///< mip levels; in double precision of 256 values
+    exact,  ///< the mean over what s goes through, by the power's integral; double_precision alone
 };
 
 /// A machine profile: data that says what a program may use and how numbers behave.
@@ -119,7 +120,8 @@ struct Machine {
     TangentFrames tangent_frames = TangentFrames::mikktspace;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
-    /// Other than `point` with double_precision alone.
+    /// Other than `point` needs fetches between stages, passes with dependent reads, or
+    /// double_precision.
     TableFilter table_filter = TableFilter::point;
     /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
     /// the fields above, `viewer`, `tangent_frames`, `filter_order` and `table_filter` count, and
