@@ -121,10 +121,11 @@ TexturePtr level_numbers(int size) {
 }
 
 /// 64 x 64 pixels; across them the coordinate of a table grows from `left` by `across`, downwards
-/// by `down`. Red is the level that was looked at, in 1/16.
-Framebuffer levels_seen(float left, float across, float down) {
+/// by `down`. What the table has there is shown.
+Framebuffer through_table(const TexturePtr& table, float left, float across, float down,
+                          PixelFormat format = PixelFormat::rgba8) {
     constexpr float kSide = 64.0F;
-    Scene scene = textured_scene(level_numbers(256), 64, 64, flat(0.0F, 1.0F), "ideal");
+    Scene scene = textured_scene(table, 64, 64, flat(0.0F, 1.0F), "ideal");
     auto material = std::make_shared<Material>();
     material->program.emplace();
     material->program->combiners = *parse_combiners(R"(!!BRN1.0
@@ -132,12 +133,14 @@ Framebuffer levels_seen(float left, float across, float down) {
         { rgb { spare0 = tex0; } }
         out.rgb = spare0; out.a = one;)")
                                         .program;
-    material->program->units = {level_numbers(256)};
+    material->program->units = {table};
     auto& raw = std::get<RawVertices>(scene.objects[0].geometry);
     for (RawVertex& v : raw.vertices)
         v.color0.x = left + across * v.position.x / kSide + down * v.position.y / kSide;
     scene.objects[0].material = std::move(material);
-    return draw(scene);
+    Framebuffer frame(64, 64, format);
+    Renderer({.threads = 1}).render(scene, frame);
+    return frame;
 }
 
 // Texels of 256: a step of 1/64 is 4 of them, level 2; a pixel's longer step counts, and what the
@@ -150,12 +153,74 @@ TEST(TableLevels, AreThoseOfTheStepBetweenPixels) {
     for (const Ramp& ramp : {Ramp{0.3F, 0.0F, 0.0F, 0.0}, Ramp{0.0F, 0.25F, 0.0F, 0.0},
                              Ramp{0.0F, 1.0F, 0.0F, 2.0}, Ramp{0.0F, 0.0F, 0.5F, 1.0},
                              Ramp{0.5F, 0.5F, -0.25F, 1.0}, Ramp{0.0F, 0.25F, 0.75F, 1.585}}) {
-        const Framebuffer frame = levels_seen(ramp.left, ramp.across, ramp.down);
+        const Framebuffer frame =
+            through_table(level_numbers(256), ramp.left, ramp.across, ramp.down);
         for (int y = 0; y < 64; ++y)
             for (int x = 0; x < 64; ++x)
                 ASSERT_NEAR(bytes_at(frame, x, y)[0], 16.0 * ramp.level, 0.51)
                     << x << ", " << y << ", level " << ramp.level;
     }
+}
+
+/// s^m of 256 texels from 0 to 1.
+Texture power_table(double m) {
+    Image16 image(256, 1);
+    for (int x = 0; x < 256; ++x)
+        for (int c = 0; c < 4; ++c)
+            image.at(x, 0)[c] =
+                static_cast<std::uint16_t>(std::lround(65535.0 * std::pow(x / 255.0, m)));
+    Sampler sampler;
+    sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
+    sampler.span_s = TexelSpan::centers;
+    return {std::span<const Image16>(&image, 1),
+            {.target = TextureTarget::one_d, .format = TexelFormat::rgba16, .sampler = sampler}};
+}
+
+double red(const Framebuffer& frame, int x, int y) {
+    std::uint16_t word;
+    std::memcpy(&word, frame.row(y) + 8 * x, sizeof word);
+    return word / 65535.0;
+}
+
+// What (F(s2) - F(s1)) / (s2 - s1) is, up to the lerps between texels and half a code of s.
+TEST(SummedTable, GivesThePowersIntegral) {
+    struct Ramp {
+        float left, across, down;
+    };
+    for (const double m : {1.0, 8.0, 64.0}) {
+        const TexturePtr table = Texture::summed_table(power_table(m), {-8.0F, 1.0F});
+        for (const Ramp& ramp : {Ramp{0.0F, 1.0F, 0.0F}, Ramp{0.6F, 0.125F, 0.25F},
+                                 Ramp{1.0F, -0.01F, 0.0F}, Ramp{0.9F, 0.0F, 0.1F}}) {
+            const Framebuffer frame =
+                through_table(table, ramp.left, ramp.across, ramp.down, PixelFormat::rgba16);
+            const double step =
+                static_cast<double>(std::max(std::abs(ramp.across), std::abs(ramp.down))) / 64.0;
+            for (int y = 0; y < 64; y += 3) {
+                for (int x = 0; x < 64; ++x) {
+                    const double s = static_cast<double>(ramp.left) +
+                                     (static_cast<double>(ramp.across) * (x + 0.5) +
+                                      static_cast<double>(ramp.down) * (y + 0.5)) /
+                                         64.0;
+                    const double high = std::min(s + 0.5 * step, 1.0);
+                    // m of a code, and the height of a parabola over a texel.
+                    ASSERT_NEAR(red(frame, x, y), mean_power(s - 0.5 * step, high, m),
+                                m * 0x1p-14 + m * m / 8.0 / (255.0 * 255.0) + 1e-4)
+                        << "m " << m << ", s " << s << ", step " << step;
+                }
+            }
+        }
+    }
+}
+
+TEST(SummedTable, OfOneNumberIsTheTable) {
+    for (const Texture& power : {power_table(3.0), power_table(100.0)})
+        for (float s = 0.0F; s <= 1.0F; s += 0.03F)
+            EXPECT_EQ(
+                red(through_table(Texture::summed_table(power, {}), s, 0.0F, 0.0F,
+                                  PixelFormat::rgba16),
+                    9, 9),
+                red(through_table(Texture::table(power), s, 0.0F, 0.0F, PixelFormat::rgba16), 9, 9))
+                << s;
 }
 
 /// A sphere of a lobe that is narrower than a pixel, on a machine.
@@ -167,6 +232,12 @@ Scene small_sphere(TableFilter filter, const char* profile = "ideal") {
     return scene;
 }
 
+Framebuffer drawn(const Scene& scene, const RendererOptions& options) {
+    Framebuffer frame(150, 100);
+    Renderer(options).render(scene, frame);
+    return frame;
+}
+
 bool same(const Framebuffer& a, const Framebuffer& b) {
     for (int y = 0; y < a.height(); ++y)
         if (std::memcmp(a.row(y), b.row(y), 4 * static_cast<std::size_t>(a.width())) != 0)
@@ -175,21 +246,72 @@ bool same(const Framebuffer& a, const Framebuffer& b) {
 }
 
 TEST(TableFilter, HasTheSameBitsForEveryInstructionSetAndAnyThreads) {
-    for (const char* profile : {"ideal", "nv2a"}) {
-        const Scene scene = small_sphere(TableFilter::mip, profile);
-        Framebuffer want(150, 100);
-        Renderer({.threads = 1, .isa = "reference"}).render(scene, want);
-        Framebuffer point(150, 100);
-        Renderer({.threads = 1}).render(small_sphere(TableFilter::point, profile), point);
-        EXPECT_FALSE(same(point, want)) << profile << ": nothing is filtered";
-        for (const KernelTable* table : available_tables()) {
-            for (const int threads : {1, 3}) {
-                Framebuffer frame(150, 100);
-                Renderer({.threads = threads, .isa = table->isa}).render(scene, frame);
-                EXPECT_TRUE(same(frame, want)) << profile << ", " << table->isa;
+    struct Way {
+        const char* profile;
+        TableFilter filter;
+        Quads quads;
+    };
+    for (const Way& way : {Way{"ideal", TableFilter::mip, Quads::of_triangle},
+                           Way{"nv2a", TableFilter::mip, Quads::of_triangle},
+                           Way{"ideal", TableFilter::exact, Quads::of_triangle},
+                           Way{"ideal", TableFilter::exact, Quads::of_pixels}}) {
+        Scene scene = small_sphere(way.filter, way.profile);
+        scene.machine.quads = way.quads;
+        const Framebuffer want = drawn(scene, {.threads = 1, .isa = "reference"});
+        EXPECT_FALSE(same(drawn(small_sphere(TableFilter::point, way.profile), {}), want))
+            << way.profile << ": nothing is filtered";
+        for (const KernelTable* table : available_tables())
+            for (const int threads : {1, 3})
+                EXPECT_TRUE(same(drawn(scene, {.threads = threads, .isa = table->isa}), want))
+                    << way.profile << ", " << table->isa;
+    }
+}
+
+// Another object changes which fragments share packets, and pixels only where it is.
+TEST(TableFilter, DoesNotSeeWhatElseIsInAPacket) {
+    for (const TableFilter filter : {TableFilter::mip, TableFilter::exact}) {
+        Scene other = small_sphere(filter);
+        other.objects[0].world_from_object =
+            placement({0.5F, -0.6F, 0.9F}, {0.0F, 1.0F, 0.0F}, 30.0F, 0.3F);
+        const Scene alone = small_sphere(filter);
+        Scene both = alone;
+        both.objects.push_back(other.objects[0]);
+        const Framebuffer a = drawn(alone, {}), b = drawn(other, {}), ab = drawn(both, {});
+        int covered = 0;
+        for (int y = 0; y < 100; ++y) {
+            for (int x = 0; x < 150; ++x) {
+                const bool is_other = bytes_at(b, x, y)[3] != 0;
+                covered += is_other ? 1 : 0;
+                ASSERT_EQ(bytes_at(ab, x, y), bytes_at(is_other ? b : a, x, y)) << x << ", " << y;
             }
         }
+        EXPECT_GT(covered, 100);
     }
+}
+
+TEST(TableFilter, OfQuadsOfPixelsChangesNothingAtPoints) {
+    Scene scene = small_sphere(TableFilter::point);
+    const Framebuffer want = drawn(scene, {});
+    scene.machine.quads = Quads::of_pixels;
+    EXPECT_TRUE(same(drawn(scene, {}), want));
+}
+
+TEST(TableFilter, OnAMachineComesNearerToManySamples) {
+    double point = 0.0, exact = 0.0;
+    for (const float turn : {0.0F, 0.02F, 0.05F, 0.09F}) {
+        const Framebuffer truth = glint(TableFilter::point, 256, turn);
+        const auto error_of = [&](TableFilter filter) {
+            Scene scene = glint_scene(filter, turn);
+            scene.machine = machine_profile("ideal");
+            scene.machine.table_filter = filter;
+            Framebuffer frame(32, 32, PixelFormat::rgba32f);
+            Renderer({.threads = 1}).render(scene, frame);
+            return error(frame, truth);
+        };
+        point += error_of(TableFilter::point);
+        exact += error_of(TableFilter::exact);
+    }
+    EXPECT_LT(exact, 0.8 * point);
 }
 
 class TableFilterKey : public SceneFile {};
@@ -205,9 +327,32 @@ TEST_F(TableFilterKey, AsksForAMachineThatLooksTablesUp) {
     const std::string mip = "table_filter = \"mip\"\n";
     EXPECT_EQ(filter(mip), TableFilter::mip);
     EXPECT_EQ(filter("profile = \"nv2a\"\nmultipass = true\n" + mip), TableFilter::mip);
+    EXPECT_EQ(filter("table_filter = \"exact\"\ntable_bias = -0.5\n"), TableFilter::exact);
+    EXPECT_SAYS(complaint("table_bias = 9\n"), "at least -8 and at most 8");
+    EXPECT_SAYS(complaint("profile = \"double\"\nquads = \"pixels\"\n"),
+                "expected one of the machines");
+    EXPECT_SAYS(complaint("profile = \"nv2a\"\nmultipass = true\ntable_filter = \"exact\"\n"),
+                "expected numbers = wide");
     EXPECT_SAYS(complaint("profile = \"nv2a\"\n" + mip), "looks no tables up");
     EXPECT_SAYS(complaint("profile = \"geforce256\"\nmultipass = true\n" + mip),
                 "looks no tables up");
+}
+
+TEST_F(TableFilterKey, SaysWhatCannotBeFiltered) {
+    const auto complaint = [&](const Scene& scene) {
+        return complaint_of([&] { drawn(scene, {}); });
+    };
+    Scene scene = small_sphere(TableFilter::exact);
+    Material ward = *scene.objects[0].material;
+    ward.model = Model::ward;
+    scene.objects[0].material = std::make_shared<const Material>(ward);
+    EXPECT_SAYS(complaint(scene), "mip filters both");
+    scene.machine.table_filter = TableFilter::mip;
+    EXPECT_NO_THROW(drawn(scene, {}));
+    scene = small_sphere(TableFilter::exact);
+    scene.machine.quads = Quads::of_pixels;
+    scene.objects[0].raster.blend = Blend{};
+    EXPECT_SAYS(complaint(scene), "expected quads = triangle");
 }
 
 }  // namespace

@@ -91,6 +91,15 @@ void check_half_vector(const Machine& machine) {
 }
 
 void check_table_filter(const Machine& machine) {
+    if (!(machine.table_bias >= -8.0F && machine.table_bias <= 8.0F)) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("table_bias = {}, expected -8 .. 8", machine.table_bias));
+    }
+    if (machine.double_precision && machine.quads == Quads::of_pixels) {
+        throw Error(ErrorCode::bad_option,
+                    "quads = pixels with profile double, whose differences are the surface's own; "
+                    "expected one of the machines");
+    }
     if (machine.table_filter == TableFilter::point || machine.double_precision) return;
     const bool has_tables =
         machine.stage_fetches ||
@@ -101,8 +110,11 @@ void check_table_filter(const Machine& machine) {
                                 "expected stage_fetches, or multipass with dependent fetches",
                                 machine.name));
     }
-    if (machine.table_filter == TableFilter::exact) {
-        throw Error(ErrorCode::bad_option, "table_filter = exact, expected profile = double");
+    if (machine.table_filter == TableFilter::exact && machine.numbers != NumberModel::wide) {
+        throw Error(
+            ErrorCode::bad_option,
+            "table_filter = exact with numbers = nine_bit, expected numbers = wide: sums of "
+            "a table are no texels of eight bits");
     }
 }
 

@@ -62,7 +62,7 @@ class TexelImage {
     std::vector<Image16> m_words;
 };
 
-TexturePtr table_texture(const PlanTable& table, TexelCoding coding, TableFilter filter) {
+TexturePtr table_texture(const PlanTable& table, TexelCoding coding, const Machine& machine) {
     const int width = table.axes[0].size;
     const int height = table.axes.size() == 2 ? table.axes[1].size : 1;
     TexelImage image(coding);
@@ -78,11 +78,12 @@ TexturePtr table_texture(const PlanTable& table, TexelCoding coding, TableFilter
     Sampler sampler;
     // A nine-bit coordinate has a texel of its own.
     sampler.filter = is_words ? Filter::linear : Filter::nearest;
-    const bool has_levels = filter == TableFilter::mip;
+    const bool has_levels = machine.table_filter == TableFilter::mip;
     if (has_levels) {
         sampler.mag_filter = sampler.filter;
         sampler.filter = Filter::linear_mipmap_linear;
     }
+    if (machine.table_filter != TableFilter::point) sampler.lod_bias = machine.table_bias;
     sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     const auto span = [&](std::size_t axis) {
         return table.axes[axis].is_signed ? TexelSpan::signed_centers : TexelSpan::centers;
@@ -93,7 +94,10 @@ TexturePtr table_texture(const PlanTable& table, TexelCoding coding, TableFilter
         image.texture({.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d,
                        .sampler = sampler,
                        .box_mipmaps = has_levels});
-    return is_words && !has_levels ? Texture::table(*texture) : texture;
+    if (!is_words || has_levels) return texture;
+    if (machine.table_filter == TableFilter::exact && !table.axes[0].of_material)
+        return Texture::summed_table(*texture, table.axes[0].range);
+    return Texture::table(*texture);
 }
 
 /// How the codes of a quantity are read.
@@ -154,7 +158,7 @@ TexelCoding texel_coding(NumberModel numbers) {
 }
 
 BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
-                   TexelCoding coding, TableFilter filter) {
+                   TexelCoding coding, const Machine& machine) {
     const TexelSource& source = texels.source();
     BakedTextures baked;
     baked.units.resize(schedule.material.units.size());
@@ -195,7 +199,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
     }
     for (std::size_t i = 0; i < plan.tables.size(); ++i) {
         baked.units[static_cast<std::size_t>(schedule.tables[i])] =
-            table_texture(plan.tables[i], coding, filter);
+            table_texture(plan.tables[i], coding, machine);
     }
     return baked;
 }

@@ -36,6 +36,7 @@ using InputOp =
                  DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
                  AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
                  LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
-                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx, PrefetchQuartetCtx>;
+                 LookUpTableCtx, AverageTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx,
+                 PrefetchQuartetCtx>;
 
 }  // namespace burnish

@@ -314,7 +314,7 @@ class Planner {
             const Texture& texture = *m_material.units[static_cast<std::size_t>(fetch.unit)];
             m_shading.stage_fetches.push_back(
                 {fetch.before, plan_stage_fetch(fetch, texture, sampling, free)});
-            m_shading.quads |= needs_level_of_detail(texture);
+            m_shading.quads |= needs_quads(texture);
             planes = std::max(planes, free.reg);
             m_sampling.uses_planes |= sampling.uses_planes;
         }
@@ -409,7 +409,7 @@ void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const 
         } else if (unit.address >= 0) {
             const int frame = pass.units[static_cast<std::size_t>(unit.address)].frame;
             const Texture& table = *material.units[static_cast<std::size_t>(unit.material_unit)];
-            quads |= needs_level_of_detail(table);
+            quads |= needs_quads(table);
             const bool is_1d = table.target() == TextureTarget::one_d;
             BoundFetch fetch;
             fetch.unit = unit.material_unit;
@@ -542,6 +542,7 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     }
     plan_light(shading, programs.front(), machine, is_mesh, 0, wanted, finest);
     shading.quads |= quads;
+    shading.quads_of_pixels = shading.quads && machine.quads == Quads::of_pixels;
     shading.result = shading.program.result;
     if (programs.size() > 1) plan_sums(shading);
     if (shading.corners) plan_corners(shading);
