@@ -1006,7 +1006,7 @@ SumEnd sum_end(const AverageTableCtx& ctx, float coordinate, std::ptrdiff_t row)
     const Int inside = clamp(place, 0, 256 * (Int{ctx.s.size} - 1));
     const Int weight = inside & 255;
     SumEnd end{place, {}, {}};
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < (ctx.t.plane < 0 ? 1 : 2); ++k) {
         const std::ptrdiff_t texel = row + k * std::ptrdiff_t{ctx.pitch} + 8 * (inside >> 8);
         const Int own = word_at(ctx.texels, texel), next = word_at(ctx.texels, texel + 2);
         std::memcpy(&end.sum[k], ctx.texels + texel + 4, sizeof end.sum[k]);
@@ -1025,7 +1025,8 @@ Int summed_word(const AverageTableCtx& ctx, TexelPosition s, TexelPosition t) {
         return (256 - Int{s.weight}) * word_at(ctx.texels, texel) +
                Int{s.weight} * word_at(ctx.texels, texel + 2);
     };
-    return shift_half_up((256 - Int{t.weight}) * row(0) + Int{t.weight} * row(1), 16);
+    const Int below = ctx.t.plane < 0 ? 0 : row(1);
+    return shift_half_up((256 - Int{t.weight}) * row(0) + Int{t.weight} * below, 16);
 }
 
 void average_table(Packet& packet, const AverageTableCtx& ctx) noexcept {
