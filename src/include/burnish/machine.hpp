@@ -91,7 +91,7 @@ enum class Quads {
 };
 
 /// How the tables of reflectance models are filtered where their coordinates change from pixel to
-/// pixel (docs/mipmaps.md); in double precision, max(0, s)^m of the Blinn-Phong family.
+/// pixel (docs/table_filter.md); in double precision, max(0, s)^m of the Blinn-Phong family.
 enum class TableFilter {
     point,  ///< not at all
     mip,    ///< mip levels; in double precision of 256 values
