@@ -278,7 +278,7 @@ void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
     ctx.t.plane < 0 ? look_up_table<false>(packet, ctx) : look_up_table<true>(packet, ctx);
 }
 
-/// Half of what codes change by within their quads, in the order of the fragments, times `reach`.
+/// `reach` times the longer step from each fragment's code to those beside it in its quad.
 void half_steps(const std::int16_t* codes, int count, float reach, float* to) {
     const auto change = [](int a, int b) { return a < b ? b - a : a - b; };
     const auto larger = [](int a, int b) { return a < b ? b : a; };

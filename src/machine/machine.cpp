@@ -107,7 +107,7 @@ void check_table_filter(const Machine& machine) {
     if (!has_tables) {
         throw Error(ErrorCode::bad_option,
                     fmt::format("table_filter other than point on '{}', which looks no tables up, "
-                                "expected stage_fetches, or multipass with dependent fetches",
+                                "expected ideal, nv2a with multipass, or double",
                                 machine.name));
     }
     if (machine.table_filter == TableFilter::exact && machine.numbers != NumberModel::wide) {
