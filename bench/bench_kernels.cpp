@@ -758,6 +758,16 @@ void add_levels() {
     table.t.plane = -1;
     add_packet_stage("look_up_table/of_one", &KernelTable::look_up_table, packet, table,
                      {.planes = {20}});
+    static const std::vector<std::uint8_t> summed(33 * 520, 3);
+    AverageTableCtx sums{summed.data(), table.s, table.t, 0x1p-15F,
+                         0.0F,          8.0F,    520,     {20, -1, -1, -1}};
+    add_packet_stage("average_table/of_one", &KernelTable::average_table, packet, sums,
+                     {.planes = {20}});
+    sums.s = {0, 60, 59.0F, 0.5F, 60.0F};
+    sums.t = {1, 32, 31.0F, 0.5F, 32.0F};
+    sums.pitch = 520;
+    add_packet_stage("average_table/of_two", &KernelTable::average_table, packet, sums,
+                     {.planes = {20}});
     add_packet_stage("hilo", &KernelTable::hilo, packet, HiloCtx{5, 7, 0}, {.attributes = {7, 8}});
 }
 

@@ -149,6 +149,33 @@ struct LookUpTableCtx {
     int out[4];
 };
 
+/// The mean of a function of a wide register over what the register goes through between pixels,
+/// from a summed table (Crow, SIGGRAPH 1984, in one dimension): the integral of the lerps between
+/// its texels. Fragments are whole quads as in QuadFootprintCtx; d is the larger of |right - left|
+/// in the fragment's own row and |lower - upper| in its own column, of the codes in plane s.plane.
+/// A texel i is 8 bytes: the words t[i] and t[i + 1], value - 32768, and 32 bits with the sum of
+/// t[j] + t[j + 1] over j < i, twice the integral up to its centre. The last one's t[i + 1] is
+/// t[i].
+/// c = v / 16384, low = max(c - d * reach, least), high = min(c + d * reach, most). In 1/256 texel
+/// from the first centre, p = floor(((x * scale + offset) / divisor) * float(256 * size)) - 128
+/// with the axis of LookUpTableCtx, and q = p limited to 0 .. 256 * (size - 1): texel i = q >> 8,
+/// w = q & 255. Beyond the first and the last centre the function stays what it is there:
+///   r = float(w) * float(512 * t[i] + w * (t[i + 1] - t[i])) * 2^-16
+///       + float(p - q) * float(t[i]) * 2^-7,
+///   n = float(sum of high - sum of low) + (r of high - r of low),
+/// with a second axis n = n + (n of the row below - n) * (its weight * 2^-8);
+/// x = floor((n * 128) / float(p of high - p of low) + 1/2), limited to -32768 .. 32767,
+/// code = (x + 32768 + 2) >> 2. Where p of high <= p of low the code is that of LookUpTableCtx.
+/// max(a, b) = a > b ? a : b, min(a, b) = a < b ? a : b.
+struct AverageTableCtx {
+    const std::uint8_t* texels;
+    LookUpTableCtx::Axis s, t;
+    float reach;         ///< half a step as a coordinate, by code: 2^(bias - 15)
+    float least, most;   ///< coordinates beyond which the argument never goes; within -8 .. 8
+    std::int32_t pitch;  ///< bytes
+    int out[4];          ///< planes, or -1
+};
+
 /// Planes out + c = a + (b - a) * w / 256 of planes a + c and b + c, rounded half up, with the low
 /// 8 bits of plane `weight` as w. Channels of `doubled` hold even codes 2 n; n is what is rounded.
 struct BlendLevelsCtx {

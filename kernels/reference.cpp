@@ -1067,6 +1067,85 @@ void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
     }
 }
 
+/// One end of what a summed table is averaged over.
+struct SumEnd {
+    Int place;            ///< p
+    std::int32_t sum[2];  ///< of the row and the one below
+    float rest[2];        ///< r
+};
+
+SumEnd sum_end(const AverageTableCtx& ctx, float coordinate, std::ptrdiff_t row) {
+    const float at = (coordinate * ctx.s.scale + ctx.s.offset) / ctx.s.divisor;
+    const auto place =
+        static_cast<Int>(std::floor(at * static_cast<float>(256 * ctx.s.size))) - 128;
+    const Int inside = clamp(place, 0, 256 * (Int{ctx.s.size} - 1));
+    const Int weight = inside & 255;
+    SumEnd end{place, {}, {}};
+    for (int k = 0; k < (ctx.t.plane < 0 ? 1 : 2); ++k) {
+        const std::ptrdiff_t texel = row + k * std::ptrdiff_t{ctx.pitch} + 8 * (inside >> 8);
+        const Int own = word_at(ctx.texels, texel), next = word_at(ctx.texels, texel + 2);
+        std::memcpy(&end.sum[k], ctx.texels + texel + 4, sizeof end.sum[k]);
+        const float within =
+            static_cast<float>(weight) * static_cast<float>(512 * own + weight * (next - own));
+        end.rest[k] = within * 0x1p-16F +
+                      static_cast<float>(place - inside) * static_cast<float>(own) * 0x1p-7F;
+    }
+    return end;
+}
+
+/// What LookUpTableCtx makes of a summed table.
+Int summed_word(const AverageTableCtx& ctx, TexelPosition s, TexelPosition t) {
+    const auto row = [&](int k) {
+        const std::ptrdiff_t texel = (t.texel + k) * std::ptrdiff_t{ctx.pitch} + 8 * s.texel;
+        return (256 - Int{s.weight}) * word_at(ctx.texels, texel) +
+               Int{s.weight} * word_at(ctx.texels, texel + 2);
+    };
+    const Int below = ctx.t.plane < 0 ? 0 : row(1);
+    return shift_half_up((256 - Int{t.weight}) * row(0) + Int{t.weight} * below, 16);
+}
+
+void average_table(Packet& packet, const AverageTableCtx& ctx) noexcept {
+    const std::int16_t* const codes = plane(packet, ctx.s.plane);
+    const auto number = [&](int k, int i) {
+        return static_cast<float>(plane(packet, k)[i]) / 16384.0F;
+    };
+    std::int16_t result[kPacketSize];
+    for (int i = 0; i < packet.count; ++i) {
+        const int left = i & ~1, upper = i & ~2;
+        const int step = std::max(std::abs(codes[left + 1] - codes[left]),
+                                  std::abs(codes[upper + 2] - codes[upper]));
+        const float at = number(ctx.s.plane, i), half = static_cast<float>(step) * ctx.reach;
+        TexelPosition row{0, 0};
+        if (ctx.t.plane >= 0) {
+            const float below = number(ctx.t.plane, i) * ctx.t.scale + ctx.t.offset;
+            row = texel_position(below / ctx.t.divisor, ctx.t.size, AddressMode::clamp_to_edge,
+                                 true, false);
+        }
+        const std::ptrdiff_t first = std::ptrdiff_t{row.texel} * ctx.pitch;
+        const SumEnd low = sum_end(ctx, maximum(at - half, ctx.least), first),
+                     high = sum_end(ctx, minimum(at + half, ctx.most), first);
+        Int x = 0;
+        if (high.place > low.place) {
+            const auto area = [&](int k) {
+                return static_cast<float>(high.sum[k] - low.sum[k]) + (high.rest[k] - low.rest[k]);
+            };
+            float n = area(0);
+            if (ctx.t.plane >= 0)
+                n = n + (area(1) - n) * (static_cast<float>(row.weight) * 0x1p-8F);
+            const float mean = n * 128.0F / static_cast<float>(high.place - low.place);
+            x = clamp(static_cast<Int>(std::floor(mean + 0.5F)), -32768, 32767);
+        } else {
+            const float place = (at * ctx.s.scale + ctx.s.offset) / ctx.s.divisor;
+            x = summed_word(
+                ctx, texel_position(place, ctx.s.size, AddressMode::clamp_to_edge, true, false),
+                row);
+        }
+        result[i] = static_cast<std::int16_t>((x + 32768 + 2) >> 2);
+    }
+    for (const int out : ctx.out)
+        if (out >= 0) std::copy_n(result, packet.count, plane(packet, out));
+}
+
 void blend_levels(Packet& packet, const BlendLevelsCtx& ctx) noexcept {
     for (int i = 0; i < packet.count; ++i) {
         const Int w = plane(packet, ctx.weight)[i] & 255;
@@ -1603,6 +1682,7 @@ const KernelTable& table_reference() noexcept {
         .fetch_quartet = fetch_quartet,
         .prefetch_quartet = prefetch_quartet,
         .look_up_table = look_up_table,
+        .average_table = average_table,
         .blend_levels = blend_levels,
         .hilo = hilo,
         .portion_nine_bit = portion<NineBit>,

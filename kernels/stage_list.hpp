@@ -55,6 +55,7 @@
     X(fetch_quartet, FetchQuartetCtx)       \
     X(prefetch_quartet, PrefetchQuartetCtx) \
     X(look_up_table, LookUpTableCtx)        \
+    X(average_table, AverageTableCtx)       \
     X(blend_levels, BlendLevelsCtx)         \
     X(hilo, HiloCtx)                        \
     X(portion_nine_bit, PortionCtx)         \

@@ -221,12 +221,17 @@ struct TableAxis {
           steps(static_cast<float>(256 * axis.size)),
           has_inverse((axis.size & (axis.size - 1)) == 0 &&
                       axis.divisor == static_cast<float>(axis.size)) {}
-    AxisAddress operator()(int i) const {
+    [[nodiscard]] F32 number(int i) const {
         const I32 v = load_widened(reinterpret_cast<const std::uint16_t*>(codes) + i);
-        const F32 number = to_float((v << 16) >> 16) * F32(0x1p-14F);
+        return to_float((v << 16) >> 16) * F32(0x1p-14F);
+    }
+    [[nodiscard]] F32 coordinate(F32 number) const {
         const F32 position = number * scale + offset;
-        const F32 at = has_inverse ? position * inverse : divide(position, divisor);
-        return axis_address<AddressMode::clamp_to_edge, true>(at, size, F32(1.0F), steps);
+        return has_inverse ? position * inverse : divide(position, divisor);
+    }
+    AxisAddress operator()(int i) const {
+        return axis_address<AddressMode::clamp_to_edge, true>(coordinate(number(i)), size,
+                                                              F32(1.0F), steps);
     }
     const std::int16_t* codes;
     std::int32_t size;
@@ -271,6 +276,110 @@ void look_up_table(Packet& packet, const LookUpTableCtx& ctx) {
 
 void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
     ctx.t.plane < 0 ? look_up_table<false>(packet, ctx) : look_up_table<true>(packet, ctx);
+}
+
+/// `reach` times the longer step from each fragment's code to those beside it in its quad.
+void half_steps(const std::int16_t* codes, int count, float reach, float* to) {
+    const auto change = [](int a, int b) { return a < b ? b - a : a - b; };
+    const auto larger = [](int a, int b) { return a < b ? b : a; };
+    for (int i = 0; i < count; i += 4) {
+        const int top = change(codes[i], codes[i + 1]), bottom = change(codes[i + 2], codes[i + 3]),
+                  left = change(codes[i], codes[i + 2]), right = change(codes[i + 1], codes[i + 3]);
+        to[i] = static_cast<float>(larger(top, left)) * reach;
+        to[i + 1] = static_cast<float>(larger(top, right)) * reach;
+        to[i + 2] = static_cast<float>(larger(bottom, left)) * reach;
+        to[i + 3] = static_cast<float>(larger(bottom, right)) * reach;
+    }
+}
+
+constexpr int kSummedTexel = 8;  // bytes
+
+/// A texel of a summed table for every lane.
+struct SummedTexels {
+    SummedTexels(const std::uint8_t* texels, I32 offset) {
+        alignas(64) std::int32_t at[kLanes32];
+        store(at, offset);
+        const I32 first = ::xsimd::bitwise_cast<I32>(load_pairs<4>(texels, at)),
+                  second = ::xsimd::bitwise_cast<I32>(load_pairs<4>(texels, at + 2));
+        const I32 words = even_dwords(first, second);
+        own = (words << 16) >> 16;
+        step = (words >> 16) - own;
+        sum = odd_dwords(first, second);
+    }
+    I32 own, step, sum;
+};
+
+/// Where the integral of a summed table begins or ends.
+struct SumEnd {
+    SumEnd(const TableAxis& axis, F32 number)
+        : place(truncate(::xsimd::floor(axis.coordinate(number) * axis.steps)) - I32(128)) {
+        const I32 inside = min(max(place, I32(0)), I32(256 * (axis.size - 1)));
+        weight = inside & I32(255);
+        offset = (inside >> 8) * I32(kSummedTexel);
+        beyond = to_float(place - inside);
+    }
+    [[nodiscard]] F32 rest(const SummedTexels& at) const {
+        const I32 line = (at.own << 9) + at.step * weight;
+        return to_float(weight) * to_float(line) * F32(0x1p-16F) +
+               beyond * to_float(at.own) * F32(0x1p-7F);
+    }
+    I32 place, weight, offset;
+    F32 beyond;
+};
+
+/// Twice the integral from `low` to `high`, in texels.
+F32 integral(const std::uint8_t* row, I32 offset, const SumEnd& low, const SumEnd& high) {
+    const SummedTexels first(row, offset + low.offset), last(row, offset + high.offset);
+    return to_float(last.sum - first.sum) + (high.rest(last) - low.rest(first));
+}
+
+template <bool TwoAxes>
+void average_table(Packet& packet, const AverageTableCtx& ctx) {
+    const TableAxis axis_s(packet, ctx.s), axis_t(packet, TwoAxes ? ctx.t : ctx.s);
+    const std::uint8_t *const upper = ctx.texels, *const lower = upper + ctx.pitch;
+    const I32 pitch(ctx.pitch), zero(0), one(1);
+    std::int16_t* out[4];
+    int outs = 0;
+    for (const int plane : ctx.out)
+        if (plane >= 0) out[outs++] = packet.planes + plane * kPacketSize;
+    const int n = group_count(packet);
+    alignas(64) float half[kPacketSize];
+    half_steps(packet.planes + ctx.s.plane * kPacketSize, n, ctx.reach, half);
+    for (int i = 0; i < n; i += kLanes32) {
+        const F32 number = axis_s.number(i), reach = load(half + i);
+        const SumEnd low(axis_s, max(number - reach, F32(ctx.least)));
+        const SumEnd high(axis_s, min(number + reach, F32(ctx.most)));
+        AxisAddress row{zero, zero};
+        if constexpr (TwoAxes) row = axis_t(i);
+        const I32 offset = row.texel * pitch;
+        F32 area = integral(upper, offset, low, high);
+        if constexpr (TwoAxes) {
+            const F32 below = integral(lower, offset, low, high);
+            area = area + (below - area) * (to_float(row.weight) * F32(0x1p-8F));
+        }
+        const I32 width = high.place - low.place;
+        const F32 mean = divide(area * F32(128.0F), to_float(max(width, one)));
+        I32 x = truncate(::xsimd::floor(mean + F32(0.5F)));
+        x = min(max(x, I32(-32768)), I32(32767));
+        if (::xsimd::any(width < one)) {
+            const AxisAddress at = axis_s(i);
+            const I32 texel = offset + at.texel * I32(kSummedTexel);
+            const auto between = [&](const std::uint8_t* texels) {
+                const SummedTexels here(texels, texel);
+                return (here.own << 8) + here.step * at.weight;
+            };
+            const I32 top = between(upper);
+            I32 point = top << 8;
+            if constexpr (TwoAxes) point = point + (between(lower) - top) * row.weight;
+            x = ::xsimd::select(width < one, (point + I32(32768)) >> 16, x);
+        }
+        const I32 code = (x + I32(32768 + 2)) >> 2;
+        for (int k = 0; k < outs; ++k) store_narrowed(out[k] + i, code);
+    }
+}
+
+void average_table(Packet& packet, const AverageTableCtx& ctx) noexcept {
+    ctx.t.plane < 0 ? average_table<false>(packet, ctx) : average_table<true>(packet, ctx);
 }
 
 void hilo(Packet& packet, const HiloCtx& ctx) noexcept {

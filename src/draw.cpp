@@ -222,6 +222,10 @@ void plan_fragments(Draw& draw, const FrameView& frame, const Object& object) {
                               object.material ? object.material->alpha_test : AlphaTest{}, depth);
     draw.depth = early_rule(draw.shading, draw.output);
     draw.ordered = needs_order(draw.output);
+    if (draw.ordered && draw.shading.quads_of_pixels)
+        throw Error(ErrorCode::bad_program,
+                    "quads = pixels where fragments are blended or may be dropped, expected "
+                    "quads = triangle");
     draw.shaded = true;
     draw.shown.reset();
     if (!frame.aov) return;

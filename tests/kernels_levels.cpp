@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -329,6 +331,68 @@ TEST_P(KernelTest, TablesAtAnyRegister) {
         }
         ASSERT_EQ(stage_difference(table(), &KernelTable::look_up_table, packet, ctx, written), "")
             << name("look_up_table") << ", seed " << seed;
+    }
+}
+
+/// The summed table of random words: rows of `columns` texels, the last two rows the same.
+std::vector<std::uint8_t> random_sums(Random& random, int columns, int rows, int pitch) {
+    std::vector<std::uint8_t> texels(static_cast<std::size_t>((rows + 1) * pitch));
+    const bool wild = random.chance(2);
+    for (int y = 0; y < rows; ++y) {
+        std::vector<std::int16_t> words;
+        for (int x = 0; x < columns; ++x)
+            words.push_back(static_cast<std::int16_t>(wild && random.chance(2)
+                                                          ? random.pick(std::array{-32768, 32767})
+                                                          : random.between(-32768, 32767)));
+        words.push_back(words.back());
+        std::int32_t sum = 0;
+        for (std::size_t x = 0; x + 1 < words.size(); ++x) {
+            std::uint8_t* const at = texels.data() + y * pitch + 8 * static_cast<int>(x);
+            std::memcpy(at, &words[x], 2);
+            std::memcpy(at + 2, &words[x + 1], 2);
+            std::memcpy(at + 4, &sum, 4);
+            sum += words[x] + words[x + 1];
+        }
+    }
+    std::copy_n(texels.end() - 2 * pitch, pitch, texels.end() - pitch);
+    return texels;
+}
+
+TEST_P(KernelTest, MeansOfTablesAtAnyRegister) {
+    for (int seed = 0; seed < 1000; ++seed) {
+        Random random(static_cast<unsigned>(seed));
+        AverageTableCtx ctx{nullptr,
+                            random_axis(random, 4, 60),
+                            random_axis(random, 5, 31),
+                            std::ldexp(1.0F, random.between(-31, 1)),
+                            -8.0F,
+                            8.0F,
+                            520,
+                            {-1, 20, -1, -1}};
+        if (random.chance(2)) ctx.least = random.real(-1.0F, 0.5F);
+        if (random.chance(2)) ctx.most = random.real(0.5F, 1.0F);
+        if (random.chance(2)) ctx.t.plane = -1;
+        const std::vector<std::uint8_t> texels =
+            random_sums(random, ctx.s.size, ctx.t.size, ctx.pitch);
+        ctx.texels = texels.data();
+        PacketMemory packet;
+        packet.count = 4 * random.between(1, kPacketSize / 4);
+        const int spread = random.pick(std::array{0, 3, 300, 32767});
+        for (int i = 0; i < kPacketSize; i += 4) {
+            const int middle = random.between(-16, 16400);
+            for (int k = i; k < i + 4; ++k) {
+                packet.plane(4)[k] = static_cast<std::int16_t>(
+                    std::clamp(middle + random.between(-spread, spread), -32768, 32767));
+                packet.plane(5)[k] = static_cast<std::int16_t>(random.between(-16, 16400));
+            }
+        }
+        Written written{.planes = {20}};
+        if (random.chance(2)) {
+            ctx.out[2] = 23;
+            written.planes.push_back(23);
+        }
+        ASSERT_EQ(stage_difference(table(), &KernelTable::average_table, packet, ctx, written), "")
+            << name("average_table") << ", seed " << seed;
     }
 }
 

@@ -1,14 +1,18 @@
+// Tables of functions that change from pixel to pixel: in double precision and on machines.
 #include "reference/power_filter.hpp"
 
 #include <gtest/gtest.h>
 #include <burnish/materials.hpp>
+#include <burnish/program_text.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
 
 #include <cmath>
 #include <cstring>
 
+#include "core/cpu.hpp"
 #include "tests/scene_file.hpp"
+#include "tests/textured_quad.hpp"
 
 namespace burnish {
 namespace {
@@ -50,7 +54,7 @@ TEST(MipPower, LevelsAreMeansOfTwo) {
 }
 
 /// A sphere with a lobe narrower than a pixel.
-Framebuffer glint(TableFilter filter, int samples, float turn = 0.0F) {
+Scene glint_scene(TableFilter filter, float turn) {
     Scene scene;
     scene.machine = machine_profile("double");
     scene.machine.table_filter = filter;
@@ -67,8 +71,12 @@ Framebuffer glint(TableFilter filter, int samples, float turn = 0.0F) {
     object.geometry = Mesh(shapes::sphere(48, 24));
     object.material = std::make_shared<const Material>(material);
     scene.objects.push_back(std::move(object));
+    return scene;
+}
+
+Framebuffer glint(TableFilter filter, int samples, float turn = 0.0F) {
     Framebuffer frame(32, 32, PixelFormat::rgba32f);
-    Renderer({.threads = 1, .double_samples = samples}).render(scene, frame);
+    Renderer({.threads = 1, .double_samples = samples}).render(glint_scene(filter, turn), frame);
     return frame;
 }
 
@@ -99,13 +107,252 @@ TEST(TableFilter, TheExactMeanComesNearerToManySamples) {
     EXPECT_LT(exact, 0.8 * mip);
 }
 
+// ---- machines
+
+/// A table whose level k is k / 16 everywhere.
+TexturePtr level_numbers(int size) {
+    std::vector<Image8> levels;
+    for (; size > 0; size /= 2)
+        levels.push_back(plain_image(size, 1, {16 * static_cast<int>(levels.size()), 0, 0, 255}));
+    Sampler sampler;
+    sampler.filter = Filter::linear_mipmap_linear;
+    sampler.wrap_s = Wrap::clamp_to_edge;
+    return make_texture(levels, {.target = TextureTarget::one_d, .sampler = sampler});
+}
+
+/// 64 x 64 pixels; across them the coordinate of a table grows from `left` by `across`, downwards
+/// by `down`. What the table has there is shown.
+Framebuffer through_table(const TexturePtr& table, float left, float across, float down,
+                          PixelFormat format = PixelFormat::rgba8) {
+    constexpr float kSide = 64.0F;
+    Scene scene = textured_scene(table, 64, 64, flat(0.0F, 1.0F), "ideal");
+    auto material = std::make_shared<Material>();
+    material->program.emplace();
+    material->program->combiners = *parse_combiners(R"(!!BRN1.0
+        fetch { tex0 = table_1d(col0.r); }
+        { rgb { spare0 = tex0; } }
+        out.rgb = spare0; out.a = one;)")
+                                        .program;
+    material->program->units = {table};
+    auto& raw = std::get<RawVertices>(scene.objects[0].geometry);
+    for (RawVertex& v : raw.vertices)
+        v.color0.x = left + across * v.position.x / kSide + down * v.position.y / kSide;
+    scene.objects[0].material = std::move(material);
+    Framebuffer frame(64, 64, format);
+    Renderer({.threads = 1}).render(scene, frame);
+    return frame;
+}
+
+// Texels of 256: a step of 1/64 is 4 of them, level 2; a pixel's longer step counts, and what the
+// triangle has beyond its edges is no seam: along the quad's diagonal nothing changes.
+TEST(TableLevels, AreThoseOfTheStepBetweenPixels) {
+    struct Ramp {
+        float left, across, down;
+        double level;
+    };
+    for (const Ramp& ramp : {Ramp{0.3F, 0.0F, 0.0F, 0.0}, Ramp{0.0F, 0.25F, 0.0F, 0.0},
+                             Ramp{0.0F, 1.0F, 0.0F, 2.0}, Ramp{0.0F, 0.0F, 0.5F, 1.0},
+                             Ramp{0.5F, 0.5F, -0.25F, 1.0}, Ramp{0.0F, 0.25F, 0.75F, 1.585}}) {
+        const Framebuffer frame =
+            through_table(level_numbers(256), ramp.left, ramp.across, ramp.down);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                ASSERT_NEAR(bytes_at(frame, x, y)[0], 16.0 * ramp.level, 0.51)
+                    << x << ", " << y << ", level " << ramp.level;
+    }
+}
+
+/// s^m of 256 texels from 0 to 1.
+Texture power_table(double m) {
+    Image16 image(256, 1);
+    for (int x = 0; x < 256; ++x)
+        for (int c = 0; c < 4; ++c)
+            image.at(x, 0)[c] =
+                static_cast<std::uint16_t>(std::lround(65535.0 * std::pow(x / 255.0, m)));
+    Sampler sampler;
+    sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
+    sampler.span_s = TexelSpan::centers;
+    return {std::span<const Image16>(&image, 1),
+            {.target = TextureTarget::one_d, .format = TexelFormat::rgba16, .sampler = sampler}};
+}
+
+double red(const Framebuffer& frame, int x, int y) {
+    std::uint16_t word;
+    std::memcpy(&word, frame.row(y) + 8 * x, sizeof word);
+    return word / 65535.0;
+}
+
+// What (F(s2) - F(s1)) / (s2 - s1) is, up to the lerps between texels and half a code of s.
+TEST(SummedTable, GivesThePowersIntegral) {
+    struct Ramp {
+        float left, across, down;
+    };
+    for (const double m : {1.0, 8.0, 64.0}) {
+        const TexturePtr table = Texture::summed_table(power_table(m), {-8.0F, 1.0F});
+        for (const Ramp& ramp : {Ramp{0.0F, 1.0F, 0.0F}, Ramp{0.6F, 0.125F, 0.25F},
+                                 Ramp{1.0F, -0.01F, 0.0F}, Ramp{0.9F, 0.0F, 0.1F}}) {
+            const Framebuffer frame =
+                through_table(table, ramp.left, ramp.across, ramp.down, PixelFormat::rgba16);
+            const double step =
+                static_cast<double>(std::max(std::abs(ramp.across), std::abs(ramp.down))) / 64.0;
+            for (int y = 0; y < 64; y += 3) {
+                for (int x = 0; x < 64; ++x) {
+                    const double s = static_cast<double>(ramp.left) +
+                                     (static_cast<double>(ramp.across) * (x + 0.5) +
+                                      static_cast<double>(ramp.down) * (y + 0.5)) /
+                                         64.0;
+                    const double high = std::min(s + 0.5 * step, 1.0);
+                    // m of a code, and the height of a parabola over a texel.
+                    ASSERT_NEAR(red(frame, x, y), mean_power(s - 0.5 * step, high, m),
+                                m * 0x1p-14 + m * m / 8.0 / (255.0 * 255.0) + 1e-4)
+                        << "m " << m << ", s " << s << ", step " << step;
+                }
+            }
+        }
+    }
+}
+
+TEST(SummedTable, OfOneNumberIsTheTable) {
+    for (const Texture& power : {power_table(3.0), power_table(100.0)})
+        for (float s = 0.0F; s <= 1.0F; s += 0.03F)
+            EXPECT_EQ(
+                red(through_table(Texture::summed_table(power, {}), s, 0.0F, 0.0F,
+                                  PixelFormat::rgba16),
+                    9, 9),
+                red(through_table(Texture::table(power), s, 0.0F, 0.0F, PixelFormat::rgba16), 9, 9))
+                << s;
+}
+
+/// A sphere of a lobe that is narrower than a pixel, on a machine.
+Scene small_sphere(TableFilter filter, const char* profile = "ideal") {
+    Scene scene = glint_scene(filter, 0.0F);
+    scene.machine = machine_profile(profile);
+    scene.machine.table_filter = filter;
+    scene.machine.multipass = scene.machine.numbers == NumberModel::nine_bit;
+    return scene;
+}
+
+Framebuffer drawn(const Scene& scene, const RendererOptions& options) {
+    Framebuffer frame(150, 100);
+    Renderer(options).render(scene, frame);
+    return frame;
+}
+
+bool same(const Framebuffer& a, const Framebuffer& b) {
+    for (int y = 0; y < a.height(); ++y)
+        if (std::memcmp(a.row(y), b.row(y), 4 * static_cast<std::size_t>(a.width())) != 0)
+            return false;
+    return true;
+}
+
+TEST(TableFilter, HasTheSameBitsForEveryInstructionSetAndAnyThreads) {
+    struct Way {
+        const char* profile;
+        TableFilter filter;
+        Quads quads;
+    };
+    for (const Way& way : {Way{"ideal", TableFilter::mip, Quads::of_triangle},
+                           Way{"nv2a", TableFilter::mip, Quads::of_triangle},
+                           Way{"ideal", TableFilter::exact, Quads::of_triangle},
+                           Way{"ideal", TableFilter::exact, Quads::of_pixels}}) {
+        Scene scene = small_sphere(way.filter, way.profile);
+        scene.machine.quads = way.quads;
+        const Framebuffer want = drawn(scene, {.threads = 1, .isa = "reference"});
+        EXPECT_FALSE(same(drawn(small_sphere(TableFilter::point, way.profile), {}), want))
+            << way.profile << ": nothing is filtered";
+        for (const KernelTable* table : available_tables())
+            for (const int threads : {1, 3})
+                EXPECT_TRUE(same(drawn(scene, {.threads = threads, .isa = table->isa}), want))
+                    << way.profile << ", " << table->isa;
+    }
+}
+
+// Another object changes which fragments share packets, and pixels only where it is.
+TEST(TableFilter, DoesNotSeeWhatElseIsInAPacket) {
+    for (const TableFilter filter : {TableFilter::mip, TableFilter::exact}) {
+        Scene other = small_sphere(filter);
+        other.objects[0].world_from_object =
+            placement({0.5F, -0.6F, 0.9F}, {0.0F, 1.0F, 0.0F}, 30.0F, 0.3F);
+        const Scene alone = small_sphere(filter);
+        Scene both = alone;
+        both.objects.push_back(other.objects[0]);
+        const Framebuffer a = drawn(alone, {}), b = drawn(other, {}), ab = drawn(both, {});
+        int covered = 0;
+        for (int y = 0; y < 100; ++y) {
+            for (int x = 0; x < 150; ++x) {
+                const bool is_other = bytes_at(b, x, y)[3] != 0;
+                covered += is_other ? 1 : 0;
+                ASSERT_EQ(bytes_at(ab, x, y), bytes_at(is_other ? b : a, x, y)) << x << ", " << y;
+            }
+        }
+        EXPECT_GT(covered, 100);
+    }
+}
+
+TEST(TableFilter, OfQuadsOfPixelsChangesNothingAtPoints) {
+    Scene scene = small_sphere(TableFilter::point);
+    const Framebuffer want = drawn(scene, {});
+    scene.machine.quads = Quads::of_pixels;
+    EXPECT_TRUE(same(drawn(scene, {}), want));
+}
+
+TEST(TableFilter, OnAMachineComesNearerToManySamples) {
+    double point = 0.0, exact = 0.0;
+    for (const float turn : {0.0F, 0.02F, 0.05F, 0.09F}) {
+        const Framebuffer truth = glint(TableFilter::point, 256, turn);
+        const auto error_of = [&](TableFilter filter) {
+            Scene scene = glint_scene(filter, turn);
+            scene.machine = machine_profile("ideal");
+            scene.machine.table_filter = filter;
+            Framebuffer frame(32, 32, PixelFormat::rgba32f);
+            Renderer({.threads = 1}).render(scene, frame);
+            return error(frame, truth);
+        };
+        point += error_of(TableFilter::point);
+        exact += error_of(TableFilter::exact);
+    }
+    EXPECT_LT(exact, 0.8 * point);
+}
+
 class TableFilterKey : public SceneFile {};
 
-TEST_F(TableFilterKey, IsOfProfileDouble) {
-    const std::string exact = "table_filter = \"exact\"\n";
-    EXPECT_EQ(scene("[machine]\nprofile = \"double\"\n" + exact).machine.table_filter,
-              TableFilter::exact);
-    EXPECT_SAYS(complaint_of([&] { scene("[machine]\n" + exact); }), "expected profile = double");
+TEST_F(TableFilterKey, AsksForAMachineThatLooksTablesUp) {
+    const auto filter = [&](const std::string& machine) {
+        return scene("[machine]\n" + machine).machine.table_filter;
+    };
+    const auto complaint = [&](const std::string& machine) {
+        return complaint_of([&] { filter(machine); });
+    };
+    EXPECT_EQ(filter("profile = \"double\"\ntable_filter = \"exact\"\n"), TableFilter::exact);
+    const std::string mip = "table_filter = \"mip\"\n";
+    EXPECT_EQ(filter(mip), TableFilter::mip);
+    EXPECT_EQ(filter("profile = \"nv2a\"\nmultipass = true\n" + mip), TableFilter::mip);
+    EXPECT_EQ(filter("table_filter = \"exact\"\ntable_bias = -0.5\n"), TableFilter::exact);
+    EXPECT_SAYS(complaint("table_bias = 9\n"), "at least -8 and at most 8");
+    EXPECT_SAYS(complaint("profile = \"double\"\nquads = \"pixels\"\n"),
+                "expected one of the machines");
+    EXPECT_SAYS(complaint("profile = \"nv2a\"\nmultipass = true\ntable_filter = \"exact\"\n"),
+                "expected numbers = wide");
+    EXPECT_SAYS(complaint("profile = \"nv2a\"\n" + mip), "looks no tables up");
+    EXPECT_SAYS(complaint("profile = \"geforce256\"\nmultipass = true\n" + mip),
+                "looks no tables up");
+}
+
+TEST_F(TableFilterKey, SaysWhatCannotBeFiltered) {
+    const auto complaint = [&](const Scene& scene) {
+        return complaint_of([&] { drawn(scene, {}); });
+    };
+    Scene scene = small_sphere(TableFilter::exact);
+    Material ward = *scene.objects[0].material;
+    ward.model = Model::ward;
+    scene.objects[0].material = std::make_shared<const Material>(ward);
+    EXPECT_SAYS(complaint(scene), "mip filters both");
+    scene.machine.table_filter = TableFilter::mip;
+    EXPECT_NO_THROW(drawn(scene, {}));
+    scene = small_sphere(TableFilter::exact);
+    scene.machine.quads = Quads::of_pixels;
+    scene.objects[0].raster.blend = Blend{};
+    EXPECT_SAYS(complaint(scene), "expected quads = triangle");
 }
 
 }  // namespace

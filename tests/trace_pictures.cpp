@@ -42,6 +42,24 @@ Scene ball_scene(const Machine& machine) {
     return scene;
 }
 
+/// A ball with a narrow lobe, whose table looks at neighbours.
+Scene lobe_scene(const Machine& machine, TableFilter filter) {
+    Scene scene = scenes::lit_scene(machine, 24, 18);
+    scene.format = PixelFormat::rgba16;
+    scene.machine.table_filter = filter;
+    auto material = std::make_shared<Material>();
+    material->model = Model::abp;
+    material->exponent = 200.0F;
+    scene.objects.push_back({Mesh(shapes::sphere(12, 7)), material, glm::mat4(1.0F), {}});
+    return scene;
+}
+Scene mip_scene(const Machine& machine) {
+    return lobe_scene(machine, TableFilter::mip);
+}
+Scene exact_scene(const Machine& machine) {
+    return lobe_scene(machine, TableFilter::exact);
+}
+
 /// Triangles that the near plane and the guard band cut.
 Scene cut_scene(const Machine& machine) {
     Scene scene = scenes::near_plane();
@@ -104,6 +122,8 @@ std::vector<Case> cases() {
         }
         list.push_back({"raw", raw_scene_of, machine, "vertex"});
     }
+    list.push_back({"mip", mip_scene, "ideal", "pixel"});
+    list.push_back({"exact", exact_scene, "ideal", "pixel"});
     return list;
 }
 

@@ -31,6 +31,7 @@ constexpr Family kFamilies[] = {
     {"fetch_", FrameStage::texture, true},
     {"prefetch_", FrameStage::texture},
     {"look_up_table", FrameStage::texture, true},
+    {"average_table", FrameStage::texture},
     {"address", FrameStage::texture},
     {"decode_", FrameStage::texture},
     {"affine", FrameStage::texture},

@@ -29,6 +29,8 @@ constexpr std::array<std::pair<std::string_view, TangentFrames>, 3> kTangentFram
      {"derivative", TangentFrames::derivative}}};
 constexpr std::array<std::pair<std::string_view, TableFilter>, 3> kTableFilters{
     {{"point", TableFilter::point}, {"mip", TableFilter::mip}, {"exact", TableFilter::exact}}};
+constexpr std::array<std::pair<std::string_view, Quads>, 2> kQuads{
+    {{"triangle", Quads::of_triangle}, {"pixels", Quads::of_pixels}}};
 constexpr std::array<std::pair<std::string_view, ProductRounding>, 3> kProductRoundings{
     {{"nearest", ProductRounding::nearest},
      {"truncate", ProductRounding::truncate},
@@ -101,7 +103,9 @@ void read_machine(const toml::table& table, Scene& scene) {
                            "normalise_half_vector",
                            "viewer",
                            "tangent_frames",
-                           "table_filter"});
+                           "table_filter",
+                           "table_bias",
+                           "quads"});
     Machine machine = read_profile(section);
     machine.filter_order =
         section.choice<FilterOrder>("filter_order", kFilterOrders).value_or(machine.filter_order);
@@ -124,6 +128,8 @@ void read_machine(const toml::table& table, Scene& scene) {
     read_vectors(section, machine);
     machine.table_filter =
         section.choice<TableFilter>("table_filter", kTableFilters).value_or(machine.table_filter);
+    machine.table_bias = section.number("table_bias", {-8.0, 8.0}).value_or(machine.table_bias);
+    machine.quads = section.choice<Quads>("quads", kQuads).value_or(machine.quads);
     machine.subpixel_bits = section.integer("subpixel_bits", 4, 8).value_or(machine.subpixel_bits);
     machine.snap_floor = section.choice<bool>("snap", kSnaps).value_or(machine.snap_floor);
     try {

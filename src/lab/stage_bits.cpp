@@ -131,7 +131,7 @@ struct BitRenderer::State {
                         fmt::format("material '{}': {} cannot be drawn with chosen bits",
                                     object.material ? object.material->name : Material{}.name,
                                     first.ordered ? "what is blended or dropped after shading"
-                                                  : "mip levels at computed coordinates"));
+                                                  : "a filter that looks at neighbours"));
         rules.push_back(first.depth);
     }
 

@@ -90,6 +90,34 @@ void check_half_vector(const Machine& machine) {
     }
 }
 
+void check_table_filter(const Machine& machine) {
+    if (!(machine.table_bias >= -8.0F && machine.table_bias <= 8.0F)) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("table_bias = {}, expected -8 .. 8", machine.table_bias));
+    }
+    if (machine.double_precision && machine.quads == Quads::of_pixels) {
+        throw Error(ErrorCode::bad_option,
+                    "quads = pixels with profile double, whose differences are the surface's own; "
+                    "expected one of the machines");
+    }
+    if (machine.table_filter == TableFilter::point || machine.double_precision) return;
+    const bool has_tables =
+        machine.stage_fetches ||
+        (machine.multipass && machine.texture_operations != TextureOperations::plain);
+    if (!has_tables) {
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("table_filter other than point on '{}', which looks no tables up, "
+                                "expected ideal, nv2a with multipass, or double",
+                                machine.name));
+    }
+    if (machine.table_filter == TableFilter::exact && machine.numbers != NumberModel::wide) {
+        throw Error(
+            ErrorCode::bad_option,
+            "table_filter = exact with numbers = nine_bit, expected numbers = wide: sums of "
+            "a table are no texels of eight bits");
+    }
+}
+
 }  // namespace
 
 void choose_half_vector(Machine& machine, std::string_view word) {
@@ -132,11 +160,7 @@ void Machine::validate() const {
                     "half vectors of profile double are computed at every sample, expected "
                     "half_vector = pixel");
     }
-    if (!double_precision && table_filter != TableFilter::point) {
-        throw Error(ErrorCode::bad_option,
-                    "table_filter other than point, expected profile = double: tables of machines "
-                    "have no mip levels");
-    }
+    check_table_filter(*this);
     if (numbers == NumberModel::nine_bit || double_precision) return;
     const auto check_default = [](const char* field, bool is_default) {
         if (!is_default) {

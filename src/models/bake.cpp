@@ -62,7 +62,7 @@ class TexelImage {
     std::vector<Image16> m_words;
 };
 
-TexturePtr table_texture(const PlanTable& table, TexelCoding coding) {
+TexturePtr table_texture(const PlanTable& table, TexelCoding coding, const Machine& machine) {
     const int width = table.axes[0].size;
     const int height = table.axes.size() == 2 ? table.axes[1].size : 1;
     TexelImage image(coding);
@@ -78,15 +78,26 @@ TexturePtr table_texture(const PlanTable& table, TexelCoding coding) {
     Sampler sampler;
     // A nine-bit coordinate has a texel of its own.
     sampler.filter = is_words ? Filter::linear : Filter::nearest;
+    const bool has_levels = machine.table_filter == TableFilter::mip;
+    if (has_levels) {
+        sampler.mag_filter = sampler.filter;
+        sampler.filter = Filter::linear_mipmap_linear;
+    }
+    if (machine.table_filter != TableFilter::point) sampler.lod_bias = machine.table_bias;
     sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     const auto span = [&](std::size_t axis) {
         return table.axes[axis].is_signed ? TexelSpan::signed_centers : TexelSpan::centers;
     };
     sampler.span_s = span(0);
     if (height > 1) sampler.span_t = span(1);
-    TexturePtr texture = image.texture(
-        {.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d, .sampler = sampler});
-    return is_words ? Texture::table(*texture) : texture;
+    TexturePtr texture =
+        image.texture({.target = height == 1 ? TextureTarget::one_d : TextureTarget::two_d,
+                       .sampler = sampler,
+                       .box_mipmaps = has_levels});
+    if (!is_words || has_levels) return texture;
+    if (machine.table_filter == TableFilter::exact && !table.axes[0].of_material)
+        return Texture::summed_table(*texture, table.axes[0].range);
+    return Texture::table(*texture);
 }
 
 /// How the codes of a quantity are read.
@@ -147,7 +158,7 @@ TexelCoding texel_coding(NumberModel numbers) {
 }
 
 BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
-                   TexelCoding coding) {
+                   TexelCoding coding, const Machine& machine) {
     const TexelSource& source = texels.source();
     BakedTextures baked;
     baked.units.resize(schedule.material.units.size());
@@ -187,7 +198,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
     }
     for (std::size_t i = 0; i < plan.tables.size(); ++i) {
         baked.units[static_cast<std::size_t>(schedule.tables[i])] =
-            table_texture(plan.tables[i], coding);
+            table_texture(plan.tables[i], coding, machine);
     }
     return baked;
 }

@@ -24,7 +24,8 @@ struct BakedTextures {
     std::vector<LayerQuantity> layer;  ///< of the plan's quantities, in their order
 };
 /// @param texels  with all of the plan's quantities
+/// @param machine  says how tables are filtered: with mip levels or sums, where it needs them
 BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& texels,
-                   TexelCoding coding);
+                   TexelCoding coding, const Machine& machine);
 
 }  // namespace burnish

@@ -92,13 +92,14 @@ CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Mach
     task.ambient = ambient;
     task.numbers = machine.numbers;
     task.fine_tables = precision == TexelPrecision::fine;
+    task.table_filter = machine.table_filter;
     task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
     const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges(), tables);
     Schedule scheduled = schedule(plan, room, machine);
     BakedTextures baked =
         bake(plan, scheduled, terms.texels(),
-             task.fine_tables ? TexelCoding::fine : texel_coding(machine.numbers));
+             task.fine_tables ? TexelCoding::fine : texel_coding(machine.numbers), machine);
 
     CompiledModel compiled;
     compiled.program = std::move(scheduled.material);

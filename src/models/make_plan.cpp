@@ -568,6 +568,7 @@ class Planner {
             t.axes.push_back(axis(*args[i], domain.arguments[i]));
             t.axes.back().name = print_expression(*args[i]);
         }
+        if (m_task.table_filter == TableFilter::exact) require_one_computed(t);
         m_tables.fill(t, e, args, domain.arguments,
                       m_task.fine_tables ? NumberModel::wide : m_task.numbers);
         PlanValue v;
@@ -577,6 +578,38 @@ class Planner {
         const bool coded = t.coded;
         m_plan.tables.push_back(std::move(t));
         return {{add(v), coded ? Mapping::expand : Mapping::signed_identity}, v.unit};
+    }
+
+    /// A mean over what two arguments go through is no difference of two sums, and rows of texels
+    /// are summed.
+    static void require_one_computed(const PlanTable& t) {
+        if (t.axes.size() < 2 || (!t.axes[0].of_material && t.axes[1].of_material)) return;
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("table_filter = exact: the table {} of {} and {}, expected one "
+                                "that a pixel computes, then a quantity; mip filters both",
+                                t.function, t.axes[0].name, t.axes[1].name));
+    }
+
+    /// Coordinates of numbers in `range`.
+    static CoordinateRange coordinates(const PlanAxis& axis, const Interval& range) {
+        const auto code = [&](double argument) {
+            const double x = argument / axis.unit;
+            switch (axis.input.mapping) {
+                case Mapping::signed_negate:
+                    return -x;
+                case Mapping::unsigned_invert:
+                    return 1.0 - x;
+                case Mapping::expand:
+                    return 0.5 * x + 0.5;
+                case Mapping::expand_negate:
+                    return 0.5 - 0.5 * x;
+                default:
+                    return x;
+            }
+        };
+        const auto within = [](double x) { return static_cast<float>(std::clamp(x, -8.0, 8.0)); };
+        const auto [least, most] = std::minmax({code(range.low), code(range.high)});
+        return {within(least), within(most)};
     }
 
     PlanAxis axis(const Expr& arg, const Interval& range) {
@@ -595,7 +628,9 @@ class Planner {
             a.input = x.input;
             a.is_signed = false;
         }
-        if (arg.op == ExprOp::quantity) {
+        a.of_material = arg.op == ExprOp::quantity;
+        a.range = coordinates(a, m_ranges.of(arg));
+        if (a.of_material) {
             const int index = m_plan.values[static_cast<std::size_t>(x.input.value)].index;
             const PlanQuantity& q = m_plan.quantities[static_cast<std::size_t>(index)];
             if (q.logarithmic) {

@@ -27,8 +27,9 @@ struct PlanTask {
     bool varies = false;     ///< quantities are filtered: vectors may be shorter than at any texel
     glm::dvec3 light{1.0}, ambient{0.0};
     NumberModel numbers = NumberModel::wide;
-    bool fine_tables = false;   ///< as many texels as wide numbers would have, whatever they are
-    bool vertex_light = false;  ///< what depends on n_dot_l alone may come with the vertices
+    bool fine_tables = false;  ///< as many texels as wide numbers would have, whatever they are
+    TableFilter table_filter = TableFilter::point;
+    bool vertex_light = false;       ///< what depends on n_dot_l alone may come with the vertices
     bool scaled_half_vector = true;  ///< the interpolators may scale it: half vectors of the pixel
 };
 

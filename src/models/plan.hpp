@@ -3,6 +3,7 @@
 #include <array>
 #include <burnish/combiner.hpp>
 #include <burnish/machine.hpp>
+#include <burnish/texture.hpp>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -55,7 +56,9 @@ struct PlanAxis {
     bool is_signed = false;
     bool logarithmic = false;
     double low = 0.0;
-    int size = 1;  ///< texels; the first and the last are the ends
+    int size = 1;              ///< texels; the first and the last are the ends
+    bool of_material = false;  ///< the argument is a quantity
+    CoordinateRange range;     ///< of the argument, whatever texels there are
     [[nodiscard]] double argument(int texel) const;
     [[nodiscard]] double between(int texel) const;  ///< halfway to the next texel
 

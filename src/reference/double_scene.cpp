@@ -83,6 +83,7 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
     out.viewer = scene.machine.viewer;
     out.tangent_frames = scene.machine.tangent_frames;
     out.table_filter = scene.machine.table_filter;
+    out.table_bias = static_cast<double>(scene.machine.table_bias);
     out.normalise_half_vector = scene.machine.normalise_half_vector;
     out.ambient = glm::dvec3(scene.ambient);
     out.background = glm::dvec4(scene.background);

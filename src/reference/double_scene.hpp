@@ -54,6 +54,7 @@ struct DoubleScene {
     Viewer viewer = Viewer::local;
     TangentFrames tangent_frames = TangentFrames::mikktspace;
     TableFilter table_filter = TableFilter::point;
+    double table_bias = 0.0;            ///< its steps count 2^table_bias times
     bool normalise_half_vector = true;  ///< else it is (l + v) / 2
     std::vector<DoubleLight> lights;
     glm::dvec3 ambient;

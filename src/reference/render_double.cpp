@@ -38,6 +38,7 @@ class ObjectShader {
           m_ambient(scene.ambient),
           m_tangent_frames(scene.tangent_frames),
           m_table_filter(scene.table_filter),
+          m_steps_scale(std::exp2(scene.table_bias)),
           m_normalises_half_vector(scene.normalise_half_vector),
           m_eye_w(scene.viewer == Viewer::local ? 1.0 : 0.0),
           m_lights(scene.lights) {
@@ -123,9 +124,9 @@ class ObjectShader {
         return sum;
     }
 
-    /// How much lobe_coordinate changes to the next sample, to the right or below, of a surface
-    /// that stays the same: what varies from texel to texel is the mip levels' business. 0 where
-    /// nobody asks.
+    /// How much lobe_coordinate counts as changed to the next sample, to the right or below, of a
+    /// surface that stays the same: what varies from texel to texel is the mip levels' business. 0
+    /// where nobody asks.
     [[nodiscard]] double change_of_lobe(const Surface& surface, const Directions& here,
                                         const Seen& seen, const DoubleLight& light) const {
         if (m_table_filter == TableFilter::point) return 0.0;
@@ -134,13 +135,14 @@ class ObjectShader {
             const SurfacePoint next{seen.point.corner, seen.point.weight + step};
             return std::abs(lobe_coordinate(surface, Place(*this, next).directions(light)) - s);
         };
-        return std::max(change(seen.weights.across), change(seen.weights.down));
+        return m_steps_scale * std::max(change(seen.weights.across), change(seen.weights.down));
     }
 
     const DoubleObject& m_object;
     glm::dvec3 m_ambient;
     TangentFrames m_tangent_frames;
     TableFilter m_table_filter;
+    double m_steps_scale;
     bool m_normalises_half_vector;
     double m_eye_w;      ///< 0: m_eye is a direction
     glm::dvec3 m_eye{};  ///< object space

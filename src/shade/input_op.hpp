@@ -45,7 +45,7 @@ using InputOp =
                  DecodeCtx, AffineCtx, DotCtx, HemisphereCtx, OffsetCtx, ReflectCtx, QuotientCtx,
                  AngleCtx, CullCtx, MagnitudeCtx, CubeFaceCtx, PlaneFootprintCtx, QuadFootprintCtx,
                  LevelOfDetailCtx, LevelAddressCtx, FetchHiloCtx, FetchWordsCtx, FetchQuartetCtx,
-                 LookUpTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx, PrefetchQuartetCtx,
-                 ProbeExtentCtx, ProbedCtx>;
+                 LookUpTableCtx, AverageTableCtx, BlendLevelsCtx, HiloCtx, BlendedCtx,
+                 PrefetchQuartetCtx, ProbeExtentCtx, ProbedCtx>;
 
 }  // namespace burnish

@@ -46,7 +46,11 @@ void PacketShader::shade(const TileFragments& fragments, std::span<const ShadedD
         start_draw(draws[draw], kernels);
         if (m_interpolates || m_needs_depth) {
             list_visible(fragments, first, end);
-            shade_visible(fragments.pixels, kernels);
+            if (m_draw.shading->quads_of_pixels) {
+                shade_pixel_quads(fragments.pixels, kernels);
+            } else {
+                shade_visible(fragments.pixels, kernels);
+            }
         } else {  // then all triangles of the draw are one
             append(*triangles[first], {fragments.pixels + pixel, nullptr, count}, kernels);
         }
@@ -86,6 +90,27 @@ void PacketShader::shade_visible(const std::uint16_t* pixels, const KernelTable&
         } else {
             append(*triangle, {pixels + first, nullptr, count}, kernels);
         }
+    }
+}
+
+void PacketShader::shade_pixel_quads(const std::uint16_t* pixels, const KernelTable& kernels) {
+    const std::uint32_t begin = m_visible.front().first, end = m_visible.back().first;
+    m_seen.resize(kTilePixels);
+    for (std::size_t k = 0; k + 1 < m_visible.size(); ++k)
+        for (std::uint32_t i = m_visible[k].first; i < m_visible[k + 1].first; ++i)
+            m_seen[pixels[i]] = m_visible[k].triangle;
+    PixelMask mask;
+    mask_pixels(pixels + begin, static_cast<int>(end - begin), mask);
+    list_quads(mask, m_list);
+    const auto triangle_at = [&](int i) {
+        int shown = i;
+        for (int k = i & ~3; m_list.stored[shown] == kNoPixel; ++k) shown = k;
+        return m_seen[m_list.shaded[shown]];
+    };
+    for (int first = 0, next = 0; first < m_list.count; first = next) {
+        const SetupTriangle* const triangle = triangle_at(first);
+        for (next = first + 1; next < m_list.count && triangle_at(next) == triangle;) ++next;
+        append(*triangle, {m_list.shaded + first, m_list.stored + first, next - first}, kernels);
     }
 }
 

@@ -74,6 +74,9 @@ class PacketShader {
     AttributesCtx runs(const Shading& shading, const KernelTable& kernels);
     void list_visible(const TileFragments& fragments, std::size_t first, std::size_t end);
     void shade_visible(const std::uint16_t* pixels, const KernelTable& kernels);
+    /// The visible triangles' fragments by quads of pixels; of those that see no fragment of the
+    /// draw, the first that does stands in for the triangle.
+    void shade_pixel_quads(const std::uint16_t* pixels, const KernelTable& kernels);
     void look_ahead(std::size_t first);
     void take_column(const SetupTriangle& triangle);
     void make_room();
@@ -100,7 +103,8 @@ class PacketShader {
         const SetupTriangle* triangle;
         std::uint32_t first;
     };
-    std::vector<Visible> m_visible;  ///< of the draw, and the end
+    std::vector<Visible> m_visible;            ///< of the draw, and the end
+    std::vector<const SetupTriangle*> m_seen;  ///< at pixels of the tile
     PixelMask m_pending;
     PixelList m_list;
     std::vector<Run> m_runs;

@@ -490,6 +490,10 @@ bool needs_level_of_detail(const Texture& texture) {
            is_linear_within(sampler.filter) != sampler.mag_is_linear();
 }
 
+bool needs_quads(const Texture& texture) {
+    return texture.summed() || needs_level_of_detail(texture);
+}
+
 TexelCornerCtx plan_texel_corner(const SampledCorners& corners, int weight, int level,
                                  SamplePlan& plan, std::vector<InputOp>& ops) {
     const SampleCoordinates at{corners.s, corners.t, -1, corners.q, true};

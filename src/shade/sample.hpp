@@ -76,6 +76,8 @@ struct SamplePlan {
 
 /// Whether the texture's filter looks at the level of detail.
 [[nodiscard]] bool needs_level_of_detail(const Texture& texture);
+/// Whether a fetch at computed coordinates looks at how they change from pixel to pixel.
+[[nodiscard]] bool needs_quads(const Texture& texture);
 
 /// The stage that finds the corners of `corners.finest`: weights go to two planes from `weight` on,
 /// the level to plane `level`. Operations that find the level of detail are added to `ops`.

@@ -95,6 +95,7 @@ void feed_input(const InputOp& op, NumberModel numbers, const KernelTable& kerne
         void operator()(const FetchQuartetCtx& c) const { k.fetch_quartet(p, c); }
         void operator()(const PrefetchQuartetCtx& c) const { k.prefetch_quartet(p, c); }
         void operator()(const LookUpTableCtx& c) const { k.look_up_table(p, c); }
+        void operator()(const AverageTableCtx& c) const { k.average_table(p, c); }
         void operator()(const BlendLevelsCtx& c) const { k.blend_levels(p, c); }
         void operator()(const HiloCtx& c) const { k.hilo(p, c); }
         void operator()(const BlendedCtx& /*c*/) const {}  // feed_inputs() may leave some out

@@ -314,7 +314,7 @@ class Planner {
             const Texture& texture = *m_material.units[static_cast<std::size_t>(fetch.unit)];
             m_shading.stage_fetches.push_back(
                 {fetch.before, plan_stage_fetch(fetch, texture, sampling, free)});
-            m_shading.quads |= needs_level_of_detail(texture);
+            m_shading.quads |= needs_quads(texture);
             planes = std::max(planes, free.reg);
             m_sampling.uses_planes |= sampling.uses_planes;
         }
@@ -395,9 +395,9 @@ struct FramePlanes {
 };
 
 /// What units of a pass read from frames and from tables that frames address, after its other
-/// inputs.
+/// inputs. `quads` is set for tables with levels.
 void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const FramePlanes& planes,
-                const BoundProgram& program, std::vector<InputOp>& inputs) {
+                const BoundProgram& program, std::vector<InputOp>& inputs, bool& quads) {
     SamplePlan sampling{program.numbers, kSampleScratch, planes.scratch};
     for (std::size_t i = 0; i < pass.units.size(); ++i) {
         const PassUnit& unit = pass.units[i];
@@ -409,6 +409,7 @@ void add_frames(const ProgramPass& pass, const ProgramMaterial& material, const 
         } else if (unit.address >= 0) {
             const int frame = pass.units[static_cast<std::size_t>(unit.address)].frame;
             const Texture& table = *material.units[static_cast<std::size_t>(unit.material_unit)];
+            quads |= needs_quads(table);
             const bool is_1d = table.target() == TextureTarget::one_d;
             BoundFetch fetch;
             fetch.unit = unit.material_unit;
@@ -436,14 +437,14 @@ void plan_passes(Shading& shading, const ProgramMaterial& material, const Machin
         if (&pass == &passes.back()) break;
         shading.earlier_passes.push_back({std::move(shading.inputs), shading.program, 0});
     }
-    shading.quads = quads;
     planes.scratch = planes.first + 4 * static_cast<int>(shading.earlier_passes.size());
     for (std::size_t i = 0; i < shading.earlier_passes.size(); ++i) {
         EarlierPass& pass = shading.earlier_passes[i];
         pass.frame = planes.first + 4 * static_cast<int>(i);
-        add_frames(passes[i], material, planes, pass.program, pass.inputs);
+        add_frames(passes[i], material, planes, pass.program, pass.inputs, quads);
     }
-    add_frames(passes.back(), material, planes, shading.program, shading.inputs);
+    add_frames(passes.back(), material, planes, shading.program, shading.inputs, quads);
+    shading.quads = quads;
     shading.program.plane_count = planes.scratch + kSamplePlanes + 4;
 }
 
@@ -541,6 +542,7 @@ void plan_shading(Shading& shading, std::span<const ProgramMaterial> programs,
     }
     plan_light(shading, programs.front(), machine, is_mesh, 0, wanted, finest);
     shading.quads |= quads;
+    shading.quads_of_pixels = shading.quads && machine.quads == Quads::of_pixels;
     shading.result = shading.program.result;
     if (programs.size() > 1) plan_sums(shading);
     if (shading.corners) plan_corners(shading);

@@ -77,9 +77,10 @@ struct Shading : LightShading {
     /// Attribute plane with the fragment's own window depth; outside [0, 1] or NaN: the fragment is
     /// dropped. Or -1.
     int depth_attribute = -1;
-    bool quads = false;        ///< fragments must come as whole 2x2 quads of one triangle
-    bool reads_light = false;  ///< the inputs depend on the light
-    bool reads_frame = false;  ///< or on attributes of the frames
+    bool quads = false;            ///< fragments must come as whole 2x2 quads of one triangle
+    bool quads_of_pixels = false;  ///< the quads' pixels instead may be of several triangles
+    bool reads_light = false;      ///< the inputs depend on the light
+    bool reads_frame = false;      ///< or on attributes of the frames
     /// `inputs` as packets run them where there is one light.
     std::vector<InputOp> packet_inputs;
     std::vector<FurtherLight> further_lights;

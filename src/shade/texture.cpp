@@ -290,7 +290,8 @@ Texture::Texture(std::span<const Image16> images, const TextureDescription& desc
 
 namespace {
 
-constexpr int kWordTexel = 8, kQuartetTexel = 32, kTableTexel = 4;  // bytes
+constexpr int kWordTexel = 8, kQuartetTexel = 32, kTableTexel = 4,
+              kSummedTexel = 8;  // bytes
 
 /// From an offset in the storage of an rgba16 texture, rows of `pitch` bytes, to that in one of
 /// other texels.
@@ -328,12 +329,37 @@ Texture::Texture(const Texture& single, int place, std::shared_ptr<Storage> stor
         level.offset = static_cast<std::int32_t>(place_of(first + level.offset) - place_of(first));
 }
 
-TexturePtr Texture::table(const Texture& texture) {
-    std::shared_ptr<Texture> table(new Texture(texture, kTableTexel));
+std::shared_ptr<Texture> Texture::empty_table(const Texture& texture, int texel_bytes) {
+    std::shared_ptr<Texture> table(new Texture(texture, texel_bytes));
     table->m_is_table = true;
     table->m_storage = std::make_shared<Storage>(table->m_layer_bytes);
+    table->m_texels = table->m_storage->bytes.data();
+    return table;
+}
+
+TexturePtr Texture::summed_table(const Texture& texture, const CoordinateRange& range) {
+    const std::shared_ptr<Texture> table = empty_table(texture, kSummedTexel);
+    table->m_summed = range;
+    for (int y = 0; y <= texture.height(); ++y) {
+        const auto word = [&](int x) {
+            const int at = std::min(x, texture.width() - 1);
+            return static_cast<std::int16_t>(texture.texel(0, 0, at, y, 0) - 32768);
+        };
+        std::uint8_t* to = table->m_storage->bytes.data() + y * table->m_pitch;
+        std::int32_t sum = 0;  // of at most 2^14 pairs of words
+        for (int x = 0; x < texture.width(); ++x, to += kSummedTexel) {
+            const std::int16_t words[2] = {word(x), word(x + 1)};
+            std::memcpy(to, words, sizeof words);
+            std::memcpy(to + sizeof words, &sum, sizeof sum);
+            sum += words[0] + words[1];
+        }
+    }
+    return table;
+}
+
+TexturePtr Texture::table(const Texture& texture) {
+    const std::shared_ptr<Texture> table = empty_table(texture, kTableTexel);
     std::uint8_t* const to = table->m_storage->bytes.data();
-    table->m_texels = to;
     for (int y = 0; y <= texture.height(); ++y) {
         for (int x = 0; x <= texture.width(); ++x) {
             const auto word = [&](int row) {

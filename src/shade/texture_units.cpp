@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/dmath.hpp"
 #include "machine/unit_operations.hpp"
 #include "shade/shading.hpp"
 
@@ -568,6 +569,15 @@ LookUpTableCtx look_up(const BoundFetch& fetch, const Texture& table) {
     return ctx;
 }
 
+AverageTableCtx average(const LookUpTableCtx& at, const Texture& table) {
+    const auto reach =
+        static_cast<float>(dmath::exp2(static_cast<double>(table.sampler().lod_bias) - 15.0));
+    AverageTableCtx ctx{at.texels, at.s, at.t, reach, table.summed()->least, table.summed()->most,
+                        at.pitch,  {}};
+    std::copy(std::begin(at.out), std::end(at.out), ctx.out);
+    return ctx;
+}
+
 }  // namespace
 
 std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& texture,
@@ -585,7 +595,12 @@ std::vector<InputOp> plan_stage_fetch(const BoundFetch& fetch, const Texture& te
                         fmt::format("the table of tex{} with coordinates that expand or of nine "
                                     "bits, expected wide registers as they are",
                                     fetch.unit));
-        ops.emplace_back(look_up(fetch, texture));
+        const LookUpTableCtx plain = look_up(fetch, texture);
+        if (texture.summed()) {
+            ops.emplace_back(average(plain, texture));
+        } else {
+            ops.emplace_back(plain);
+        }
         return ops;
     }
     const TexelClass format = format_class(texture.format());

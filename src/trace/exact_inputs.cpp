@@ -140,6 +140,7 @@ void ExactInputs::feed(const InputOp& op) {
         void operator()(const LookUpTableCtx& c) const {
             to.look_up(c, plane(c.s.plane), c.t.plane < 0 ? 0.0 : plane(c.t.plane));
         }
+        void operator()(const AverageTableCtx& /*c*/) const {}  // between stages alone
         void operator()(const BlendLevelsCtx& c) const {
             const double weight = to.cut(plane(c.weight) - std::floor(plane(c.weight)));
             for (int k = 0; k < c.channels; ++k) {
@@ -547,10 +548,12 @@ Reals ExactInputs::fetch_between_stages(std::size_t number, const std::array<dou
         } else if (const auto* quad = std::get_if<QuadFootprintCtx>(&op)) {
             set_attribute(quad->footprint.out, footprint);
         } else if (const auto* table = std::get_if<LookUpTableCtx>(&op)) {
-            // All channels have one value, of which only those that are read have a plane.
             look_up(*table, at[0], at[1]);
-            reals.fill(plane(*std::find_if(std::begin(table->out), std::end(table->out),
-                                           [](int out) { return out >= 0; })));
+            reals.fill(plane(any_output(table->out)));
+            return reals;
+        } else if (const auto* sums = std::get_if<AverageTableCtx>(&op)) {
+            average(*sums, at[0], at[1], footprint);
+            reals.fill(plane(any_output(sums->out)));
             return reals;
         } else {
             feed(op);
@@ -560,19 +563,66 @@ Reals ExactInputs::fetch_between_stages(std::size_t number, const std::array<dou
     return reals;
 }
 
+namespace {
+
+/// A coordinate of a table as a texture's.
+double table_coordinate(const LookUpTableCtx::Axis& axis, double at) {
+    const double scaled = at * static_cast<double>(axis.scale) + static_cast<double>(axis.offset);
+    return scaled / static_cast<double>(axis.divisor);
+}
+
+}  // namespace
+
+ExactInputs::Position ExactInputs::position_along(const LookUpTableCtx::Axis& axis, double at) {
+    if (axis.plane < 0) return {};
+    return table_position(table_coordinate(axis, at), axis.size, AddressMode::clamp_to_edge, true,
+                          false);
+}
+
 void ExactInputs::look_up(const LookUpTableCtx& ctx, double s, double t) {
     m_is_table = true;
-    const auto along = [&](const LookUpTableCtx::Axis& axis, double at) {
-        const double scaled =
-            at * static_cast<double>(axis.scale) + static_cast<double>(axis.offset);
-        return table_position(scaled / static_cast<double>(axis.divisor), axis.size,
-                              AddressMode::clamp_to_edge, true, false);
-    };
     m_level = m_layer = 0;
-    m_column = along(ctx.s, s);
-    m_row = ctx.t.plane < 0 ? Position{} : along(ctx.t, t);
+    m_column = position_along(ctx.s, s);
+    m_row = position_along(ctx.t, t);
     for (const int out : ctx.out)
         if (out >= 0) fetch(texture_at(m_shading, ctx.texels), out, 1);
+}
+
+void ExactInputs::average(const AverageTableCtx& ctx, double s, double t, double half) {
+    const auto texels = [&](double at) { return table_coordinate(ctx.s, at) * ctx.s.size - 0.5; };
+    const Texture& table = texture_at(m_shading, ctx.texels);
+    double low = texels(std::max(s - half, static_cast<double>(ctx.least)));
+    double high = texels(std::min(s + half, static_cast<double>(ctx.most)));
+    if (!(low < high)) low = high = texels(s);
+    m_is_table = true;
+    m_row = position_along(ctx.t, t);
+    const double mean = mix(mean_of_row(table, m_row.texel, low, high),
+                            mean_of_row(table, m_row.texel + 1, low, high), m_row.weight);
+    for (const int out : ctx.out)
+        if (out >= 0) m_planes[static_cast<std::size_t>(out)] = mean;
+}
+
+double ExactInputs::mean_of_row(const Texture& table, int row, double low, double high) {
+    const double last = table.width() - 1;
+    const auto value = [&](double at) {
+        const double inside = std::clamp(at, 0.0, last);
+        const auto left = static_cast<int>(inside);
+        const auto texel = [&](int x) {
+            return texel_value(table, 0, 0, std::min(x, table.width() - 1), row, 0);
+        };
+        return mix(texel(left), texel(left + 1), inside - left);
+    };
+    if (!(low < high)) return value(low);
+    double sum = 0.0;
+    for (double from = low, to = low; from < high; from = to) {
+        to = std::min(std::floor(from) + 1.0, high);
+        sum += 0.5 * (value(from) + value(to)) * (to - from);
+    }
+    return sum / (high - low);
+}
+
+int any_output(std::span<const int, 4> out) {
+    return *std::find_if(out.begin(), out.end(), [](int plane) { return plane >= 0; });
 }
 
 const Texture& texture_at(const Shading& shading, const std::uint8_t* texels) {

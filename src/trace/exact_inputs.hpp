@@ -47,7 +47,8 @@ class ExactInputs {
     /// (0, 0, 0, 0).
     [[nodiscard]] RealRegisters registers() const;
     /// The texel of fetch `number` between stages, at coordinates that are registers' numbers.
-    /// @param footprint  what a quad covers, if the fetch asks for it
+    /// @param footprint  what a quad covers, if the fetch asks for it; of a summed table half of
+    ///                   how much its first coordinate changes there
     Reals fetch_between_stages(std::size_t number, const std::array<double, 3>& at,
                                double footprint = 0.0);
 
@@ -67,6 +68,9 @@ class ExactInputs {
     static double number(double color, Reading reading);
 
     void look_up(const LookUpTableCtx& ctx, double s, double t);
+    void average(const AverageTableCtx& ctx, double s, double t, double half);
+    /// The mean of a row of a table over its first coordinate, whose function is made of lerps.
+    [[nodiscard]] static double mean_of_row(const Texture& table, int row, double low, double high);
     void light(const LightingCtx& ctx);
     void locate(const AddressCtx& ctx);
     void locate(const LevelAddressCtx& ctx);
@@ -81,6 +85,8 @@ class ExactInputs {
         double weight;
     };
     static Position position(double u, int size, AddressMode mode, bool linear, bool rectangle);
+    /// Along an axis of a table.
+    Position position_along(const LookUpTableCtx::Axis& axis, double at);
     /// The same, on the grid of a table if the coordinate was computed.
     Position table_position(double u, int size, AddressMode mode, bool linear, bool rectangle);
     /// The weight of a lerp as its filter has it.
@@ -99,6 +105,10 @@ class ExactInputs {
     Position m_column{}, m_row{};
     bool m_is_table = false;  ///< coordinates were computed from texels, registers or light
 };
+
+/// A plane with the value that all channels of a table have, of which only those that are read have
+/// a plane.
+int any_output(std::span<const int, 4> out);
 
 /// The texture that a fetch reads.
 const Texture& texture_at(const Shading& shading, const std::uint8_t* texels);

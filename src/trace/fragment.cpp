@@ -58,6 +58,14 @@ class LonePacket {
     [[nodiscard]] int plane(int k) const {
         return m_planes[static_cast<std::size_t>(k * kPacketSize + m_at)];
     }
+    /// The longer step of plane k, to the fragment's neighbour in its row or in its column.
+    [[nodiscard]] int step(int k) const {
+        const auto change = [&](int neighbour) {
+            const auto at = static_cast<std::size_t>(k * kPacketSize + neighbour);
+            return std::abs(m_planes[at] - plane(k));
+        };
+        return std::max(change(m_at ^ 1), change(m_at ^ 2));
+    }
     [[nodiscard]] float one_over_w() const { return m_one_over_w; }
     [[nodiscard]] std::int32_t texel() const { return m_texel[m_at]; }
     [[nodiscard]] int weight_x() const { return m_weight_x[m_at]; }
@@ -391,16 +399,14 @@ class StageFetches {
             for (std::size_t c = 0; c < 4; ++c)
                 codes[c] = lone.plane(program().fetches[i].out + static_cast<int>(c));
             if (const auto* table = std::get_if<LookUpTableCtx>(&fetch.ops.back()))
-                codes.fill(lone.plane(any_output(*table)));
+                codes.fill(lone.plane(any_output(table->out)));
+            if (const auto* sums = std::get_if<AverageTableCtx>(&fetch.ops.back())) {
+                codes.fill(lone.plane(any_output(sums->out)));
+                footprint = lone.step(sums->s.plane) * static_cast<double>(sums->reach);
+            }
             m_codes.push_back(codes);
             m_footprints.push_back(footprint);
         }
-    }
-
-    /// A plane with the value of all channels, of which only those that are read have one.
-    static int any_output(const LookUpTableCtx& table) {
-        return *std::find_if(std::begin(table.out), std::end(table.out),
-                             [](int plane) { return plane >= 0; });
     }
 
     const Draw* m_draw;

@@ -113,6 +113,11 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
                     "a trace with filter_order = after, whose programs run at four texels; trace "
                     "with filter_order = before, or with nearest filters at one of the texels");
     }
+    if (scene.machine.quads == Quads::of_pixels) {
+        throw Error(ErrorCode::bad_option,
+                    "a trace with quads = pixels, which looks at other triangles than the pixel's; "
+                    "expected quads = triangle");
+    }
     if (scene.format == PixelFormat::depth32f) {
         throw Error(ErrorCode::bad_option,
                     "a trace of a scene with format depth32f, expected a format of colours");

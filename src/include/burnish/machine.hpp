@@ -81,11 +81,21 @@ enum class TextureOperations {
     all,    ///< NV_texture_shader3, too
 };
 
-/// How max(0, s)^m of the Blinn-Phong family is filtered where s changes from sample to sample.
+/// What the four pixels of a 2x2 quad are, inside which fetches at computed coordinates take
+/// differences.
+enum class Quads {
+    of_triangle,  ///< one triangle's, which is extrapolated where it does not reach
+    /// What is seen there of the draw, so that differences go across silhouettes and seams: for the
+    /// experiment that shows it. Neither for draws that need order nor in double precision.
+    of_pixels,
+};
+
+/// How the tables of reflectance models are filtered where their coordinates change from pixel to
+/// pixel (docs/table_filter.md); in double precision, max(0, s)^m of the Blinn-Phong family.
 enum class TableFilter {
     point,  ///< not at all
-    mip,    ///< mip levels of a table of 256 values
-    exact,  ///< the mean over what s goes through, by the power's integral
+    mip,    ///< mip levels; in double precision of 256 values
+    exact,  ///< the mean over what the coordinate goes through, by sums: the power's integral
 };
 
 /// A machine profile: data that says what a program may use and how numbers behave.
@@ -119,11 +129,14 @@ struct Machine {
     TangentFrames tangent_frames = TangentFrames::mikktspace;
     int subpixel_bits = 8;    ///< 4 .. 8: vertices are snapped to 2^-subpixel_bits pixel
     bool snap_floor = false;  ///< snap by floor, as the NV2A does, instead of to nearest
-    /// Other than `point` with double_precision alone.
+    /// Other than `point` needs fetches between stages, passes with dependent reads, or
+    /// double_precision.
     TableFilter table_filter = TableFilter::point;
+    float table_bias = 0.0F;  ///< -8 .. 8: its steps count 2^table_bias times
+    Quads quads = Quads::of_triangle;
     /// No machine: the formulas of the reflectance models in double precision (docs/models.md). Of
-    /// the fields above, `viewer`, `tangent_frames`, `filter_order` and `table_filter` count, and
-    /// `half_vector` must be `pixel`.
+    /// the fields above, `viewer`, `tangent_frames`, `filter_order`, `table_filter` and
+    /// `table_bias` count, and `half_vector` must be `pixel`.
     bool double_precision = false;
 
     /// Throws Error{bad_option} for a field outside its range, for a choice of the nine-bit model

@@ -168,6 +168,11 @@ struct TextureLevel {
     std::int32_t offset;  ///< bytes from Texture::texels()
 };
 
+/// Coordinates that the argument of a table never goes beyond, within -8 .. 8.
+struct CoordinateRange {
+    float least = -8.0F, most = 8.0F;
+};
+
 /// A texture in the layout that the fetch kernels read. Immutable.
 ///
 /// All levels, faces and slices lie in one storage with one row pitch: level 0, below it levels 1,
@@ -214,11 +219,13 @@ class Texture {
     [[nodiscard]] std::int32_t pitch() const noexcept { return m_pitch; }
     /// Bytes from one face or slice to the next.
     [[nodiscard]] std::int32_t layer_bytes() const noexcept { return m_layer_bytes; }
-    /// Bytes from one texel to the next: 4 or 8, in a quartet 32, of a table 4.
+    /// Bytes from one texel to the next: 4 or 8, in a quartet 32, of a table 4, a summed one 8.
     [[nodiscard]] int texel_bytes() const noexcept { return m_texel_bytes; }
     /// Which of the textures of a quartet this is, 0 .. 3; -1 outside of one.
     [[nodiscard]] int place() const noexcept { return m_place; }
     [[nodiscard]] bool is_table() const noexcept { return m_is_table; }
+    /// Of a summed table, which is one, too.
+    [[nodiscard]] const std::optional<CoordinateRange>& summed() const noexcept { return m_summed; }
     /// Texel (0, 0) of level 0, first face or slice.
     [[nodiscard]] const std::uint8_t* texels() const noexcept { return m_texels; }
     /// Channel c of a stored texel as the number of the format: -128 .. 255, of words -32768 ..
@@ -238,11 +245,17 @@ class Texture {
     /// clamped to its edges and linear, once more for fetches between general stages alone: a texel
     /// is its word and that of the texel below, so that 8 bytes are all that a fragment needs.
     [[nodiscard]] static std::shared_ptr<const Texture> table(const Texture& texture);
+    /// The same for means over what the first coordinate goes through from pixel to pixel, as
+    /// TableFilter::exact asks for: a texel is its word, the next one, and the sum of the row up to
+    /// it (AverageTableCtx). Intervals are 2^lod_bias times as long as the steps between pixels.
+    [[nodiscard]] static std::shared_ptr<const Texture> summed_table(const Texture& texture,
+                                                                     const CoordinateRange& range);
 
   private:
     struct Storage;
     /// One that still lacks its texels.
     Texture(const Texture& other, int texel_bytes);
+    static std::shared_ptr<Texture> empty_table(const Texture& texture, int texel_bytes);
     /// A place of a quartet that still lacks its texels.
     Texture(const Texture& single, int place, std::shared_ptr<Storage> storage);
     template <class Image>
@@ -257,6 +270,7 @@ class Texture {
     int m_texel_bytes = 4;
     int m_place = -1;
     bool m_is_table = false;
+    std::optional<CoordinateRange> m_summed;
     std::shared_ptr<Storage> m_storage;
     const std::uint8_t* m_texels = nullptr;
 };
