@@ -165,6 +165,12 @@ std::string ModelCompiler::Parts::with_passes(Machine machine, const ModelNeeds&
 
 CompiledModel ModelCompiler::Parts::compile(const Machine& machine, const glm::vec3& light,
                                             const glm::vec3& ambient) {
+    if (material.model == Model::lean && machine.numbers == NumberModel::nine_bit)
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("lean on '{}': variances are small differences of filtered "
+                                "squares, which need registers of 16 bits, expected profile ideal "
+                                "or double",
+                                machine.name));
     try {
         CompiledModel model =
             model_within(machine.multipass ? with_room(machine) : machine, machine, light, ambient);

@@ -244,7 +244,9 @@ const Cover::Way& Cover::best(const Expr& e) {
                 way.cost = arg(0) + arg(1);
             break;
         case ExprOp::minimum:
-            if (is_constant(0) || is_constant(1)) {
+            if (const Expr* inner = symmetric_clamp(e)) {
+                way.cost = best(*inner).cost + kOperation;
+            } else if (is_constant(0) || is_constant(1)) {
                 const Way& below = best(*e.args[is_constant(0) ? 1 : 0]);
                 const double bound = e.args[is_constant(0) ? 0 : 1]->value.x;
                 way.cost = arg(0) + arg(1) + kOperation;
@@ -288,6 +290,8 @@ void Cover::choose(const Expr& e) {
     if (way.is_table) {
         for (const Expr* arg : way.cut.args) choose(*arg);
         m_tables.push_back(&e);
+    } else if (const Expr* inner = symmetric_clamp(e)) {
+        choose(*inner);
     } else if (!is_leaf(e)) {
         for (const ExprPtr& arg : e.args) choose(*arg);
     }
