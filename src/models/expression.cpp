@@ -151,13 +151,17 @@ ExprPtr ExprBuilder::quantity_of(std::string name, const ExprPtr& value, Binding
                                  Extreme extreme) {
     if (value->binding == Binding::constant) return value;
     const bool is_exponent = value->op == ExprOp::parameter && value->name == "N";
+    ExponentCoding coding = is_exponent ? m_exponent_coding : ExponentCoding::automatic;
+    // What the text itself calls filtered has no other mean.
+    if (binding == Binding::pixel && coding == ExponentCoding::automatic)
+        coding = ExponentCoding::linear;
     return intern({.op = ExprOp::quantity,
                    .kind = value->kind,
                    .binding = binding,
                    .value = {},
                    .name = std::move(name),
                    .args = {value},
-                   .coding = is_exponent ? m_exponent_coding : ExponentCoding::automatic,
+                   .coding = coding,
                    .extreme = extreme});
 }
 
