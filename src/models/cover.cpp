@@ -138,7 +138,8 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
         // Multiples are read from what they are multiples of.
         const bool is_multiple = e.op == ExprOp::multiply && e.args[0]->op == ExprOp::constant;
         if (!is_multiple) found.push_back({&e});
-        if (!is_leaf(e)) {
+        // A clamped value is for a register: tables are of what it is, not of what is below it.
+        if (!is_leaf(e) && symmetric_clamp(e) == nullptr) {
             std::vector<NodeSet> merged{{}};
             for (const ExprPtr& arg : e.args) {
                 std::vector<NodeSet> wider;

@@ -353,7 +353,7 @@ class Planner {
                 return positive(is_number(*e.args[0], 0.0) ? *e.args[1] : *e.args[0]);
             case ExprOp::minimum: {
                 if (const Expr* inner = symmetric_clamp(e))
-                    return in_units(lower(*inner), e.args[1]->value.x);
+                    return clamped(e, *inner, e.args[1]->value.x);
                 const bool first = e.args[0]->op == ExprOp::constant;
                 if (!first && e.args[1]->op != ExprOp::constant) needs_table(e);
                 const Expr& bound = first ? *e.args[0] : *e.args[1];
@@ -585,19 +585,31 @@ class Planner {
         return Operand{{y.input.value, Mapping::unsigned_invert}, 1.0};
     }
 
+    /// x of -bound .. bound in units of the bound. What has far larger ones takes a fetch instead
+    /// of stages that double.
+    Operand clamped(const Expr& e, const Expr& inner, double bound) {
+        const Operand x = lower(inner);
+        const double reached = std::min(x.unit, reach(inner));
+        if (x.unit <= 4.0 * bound || m_task.numbers == NumberModel::nine_bit || reached < bound)
+            return in_units(x, bound);
+        return table_over(e, {&inner}, {{-x.unit, x.unit}});
+    }
+
     // --- tables ---------------------------------------------------------------------------------
 
     Operand table(const Expr& e) {
-        const std::vector<const Expr*>& args = m_cover.table(e)->args;
+        return table_over(e, m_cover.table(e)->args, m_domains.at(&e).arguments);
+    }
+
+    Operand table_over(const Expr& e, const std::vector<const Expr*>& args,
+                       const std::vector<Interval>& domain) {
         PlanTable t;
-        const TableDomain& domain = m_domains.at(&e);
         t.function = print_expression(e);
         for (std::size_t i = 0; i < args.size(); ++i) {
-            t.axes.push_back(axis(*args[i], domain.arguments[i]));
+            t.axes.push_back(axis(*args[i], domain[i]));
             t.axes.back().name = print_expression(*args[i]);
         }
-        m_tables.fill(t, e, args, domain.arguments,
-                      m_task.fine_tables ? NumberModel::wide : m_task.numbers);
+        m_tables.fill(t, e, args, domain, m_task.fine_tables ? NumberModel::wide : m_task.numbers);
         PlanValue v;
         v.op = PlanOp::table;
         v.index = static_cast<int>(m_plan.tables.size());
