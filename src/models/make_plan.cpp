@@ -589,8 +589,8 @@ class Planner {
     /// of stages that double.
     Operand clamped(const Expr& e, const Expr& inner, double bound) {
         const Operand x = lower(inner);
-        const double reached = std::min(x.unit, reach(inner));
-        if (x.unit <= 4.0 * bound || m_task.numbers == NumberModel::nine_bit || reached < bound)
+        const double staged = m_task.few_stages ? 1.0 : 4.0;
+        if (x.unit <= staged * (1.0 + 1e-9) * bound || m_task.numbers == NumberModel::nine_bit)
             return in_units(x, bound);
         return table_over(e, {&inner}, {{-x.unit, x.unit}});
     }
