@@ -205,6 +205,13 @@ TEST(CompileModel, EveryModelOnEveryMachine) {
             SCOPED_TRACE(std::string(name) + " on " + std::string(profile));
             const bool has_tables = model != Model::blinn_phong && model != Model::abp &&
                                     model != Model::abp_modified && model != Model::abp_modified_n4;
+            if (model == Model::lean && profile != "ideal") {
+                EXPECT_EQ(refusal(of_model(model), profile, true),
+                          std::string("lean on '") + std::string(profile) +
+                              "': variances are small differences of filtered squares, which need "
+                              "registers of 16 bits, expected profile ideal or double");
+                continue;
+            }
             if (profile != "geforce256" || !has_tables) {
                 expect_whole(compiled(of_model(model), profile, true), machine_profile(profile));
                 continue;

@@ -55,6 +55,8 @@ struct FormulaSurface {
                 return (ashikhmin_shirley(frame, l, v, exponents(), s) + d) * n_l;
             case Model::ggx:
                 return (ggx(frame, l, v, alpha, s) + d) * n_l;
+            case Model::lean:
+                return (s * lean(frame, l, v, alpha) + d) * n_l;
             case Model::text:
                 break;
         }

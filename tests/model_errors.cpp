@@ -38,7 +38,7 @@ TEST_P(OnIdeal, ErrorsAreSmall) {
         EXPECT_LT(measured.on_its_grid->step_excess * 255.0, 2.0) << parameters.name;
     }
 }
-INSTANTIATE_TEST_SUITE_P(EveryModel, OnIdeal, testing::Range(0, 12), [](const auto& model) {
+INSTANTIATE_TEST_SUITE_P(EveryModel, OnIdeal, testing::Range(0, 13), [](const auto& model) {
     return std::string(model_names()[static_cast<std::size_t>(model.param)]);
 });
 

@@ -99,6 +99,14 @@ bool bends(Model model, const FormulaSurface& s, const glm::dvec3& l, const glm:
             return n_l <= 0.0 || n_v < 1.0 / 32.0 || g_l < 1.0 / 32.0 ||
                    n_l / g_l + n_v / g_v < 1.0 / 64.0;
         }
+        case Model::lean: {
+            const glm::dvec3& n = s.frame.n;
+            const glm::dvec3 d = h / h.z - n / n.z;
+            const double x = glm::dot(s.frame.t, d) / s.alpha.x,
+                         y = glm::dot(s.frame.b, d) / s.alpha.y;
+            return n_l <= 0.0 || n_v < 1.0 / 32.0 || h.z < 1.0 / 8.0 || n.z < 1.0 / 8.0 ||
+                   2.0 * (x * x + y * y) * (n.z * h.z) * (n.z * h.z) > 25.0;
+        }
         default:
             return n_h < 0.0;  // these lobes are even in h
     }

@@ -8,6 +8,7 @@
 #include <burnish/materials.hpp>
 #include <cstdint>
 #include <random>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -102,10 +103,17 @@ TEST(ParseModelTest, ErrorsSayWhereWhatAndWhatWasExpected) {
         {"rough = 2\nks * rouhg", "2:6: unknown name 'rouhg', did you mean 'rough'?"},
         {"ks * something",
          "1:6: unknown name 'something', expected n, t, b, alpha_x, alpha_y, N, ks, kd, l, v, h, "
-         "n_dot_l, h_dot_l, pi"},
+         "n_dot_l, h_dot_l, ex, ey, ez, pi"},
         {"ks * sqr(2)", "1:6: unknown function 'sqr', did you mean 'sqrt'?"},
         {"ks * log(0)",
-         "1:6: unknown function 'log', expected dot, sqrt, pow, exp, min, max, clamp"},
+         "1:6: unknown function 'log', expected dot, sqrt, pow, exp, min, max, clamp, filtered, "
+         "least, most"},
+        {"ks * filtered(n_dot_l)",
+         "1:6: 'filtered' of what varies from pixel to pixel, expected what is known at the texel"},
+        {"ks * least(filtered(N))",
+         "1:6: 'least' of what varies from pixel to pixel, expected what is known at the texel"},
+        {"ks * most(n)", "1:6: 'most' of a vector, expected a number"},
+        {"ex = 2\nks", "1:1: 'ex' has a value already, expected a new name"},
         {"ks * clamp(2, 3)", "1:6: clamp of 2 values, expected 3"},
         {"ks * sqrt(2, 3)", "1:6: sqrt of 2 values, expected 1"},
         // kinds
@@ -334,11 +342,12 @@ TEST(ParseModelTest, NoTextBreaksIt) {
 std::string printed(const Expr& value) {
     std::string text;
     std::vector<const Expr*> done;
+    std::set<std::string> names;  // `filtered` of a quantity is another node with its name
     const auto define = [&](const auto& self, const Expr& e) -> void {
         if (std::find(done.begin(), done.end(), &e) != done.end()) return;
         done.push_back(&e);
         for (const ExprPtr& arg : e.args) self(self, *arg);
-        if (e.op == ExprOp::quantity)
+        if (e.op == ExprOp::quantity && e.extreme == Extreme::none && names.insert(e.name).second)
             text += e.name + " = " + print_expression(*e.args.front()) + "\n";
     };
     define(define, value);

@@ -108,7 +108,7 @@ LayerQuantity description(const PlanQuantity& q, TexelCoding coding) {
     d.logarithmic = q.logarithmic;
     // Registers hold n / 65536, n / 255, and twice that less 1, less 256/255.
     const double one = coding == TexelCoding::words ? 65535.0 / 65536.0 : 1.0;
-    if (q.kind == ValueKind::vector) {
+    if (q.is_coded()) {
         d.scale = q.unit * (2.0 * one);
         d.offset = q.unit * (coding == TexelCoding::bytes ? -256.0 / 255.0 : -1.0);
     } else {
@@ -126,7 +126,7 @@ void write_row(const PlanQuantity& q, int c, std::span<const double> values, Tex
     for (const double value : values) {
         const double v =
             q.logarithmic ? (dmath::log2(value) - q.low) / q.unit.x : value / q.unit[c];
-        put(x++, q.kind == ValueKind::vector ? vector_code(v, coding) : texel_code(v, coding));
+        put(x++, q.is_coded() ? vector_code(v, coding) : texel_code(v, coding));
     }
 }
 

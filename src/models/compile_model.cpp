@@ -55,7 +55,10 @@ struct ModelCompiler::Parts {
     Cover& cover_for(const Machine& room, const Machine& machine);
     /// The model for `machine`, within what `room` has.
     CompiledModel model_within(const Machine& room, const Machine& machine, const glm::vec3& light,
-                               const glm::vec3& ambient);
+                               const glm::vec3& ambient, bool few_stages = false);
+    /// The one that takes more fetches, if the other takes too many stages.
+    CompiledModel model_that_fits(const Machine& room, const Machine& machine,
+                                  const glm::vec3& light, const glm::vec3& ambient);
     /// All that the model takes, whatever `machine` has. Without tables if combiners can do it;
     /// `first` is what was short there.
     ModelNeeds count_needs(const Shortage& first, const Machine& machine, const glm::vec3& light,
@@ -82,7 +85,8 @@ Cover& ModelCompiler::Parts::cover_for(const Machine& room, const Machine& machi
 }
 
 CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Machine& machine,
-                                                 const glm::vec3& light, const glm::vec3& ambient) {
+                                                 const glm::vec3& light, const glm::vec3& ambient,
+                                                 bool few_stages) {
     PlanTask task;
     task.quantities = terms.quantities();
     task.most_tilt = terms.most_tilt();
@@ -95,6 +99,7 @@ CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Mach
     task.table_filter = machine.table_filter;
     task.vertex_light = machine.half_vector == HalfVector::vertex;
     task.scaled_half_vector = machine.half_vector == HalfVector::pixel;
+    task.few_stages = few_stages;
     const Plan plan = make_plan(task, cover_for(room, machine), terms.ranges(), tables);
     Schedule scheduled = schedule(plan, room, machine);
     BakedTextures baked =
@@ -118,6 +123,18 @@ CompiledModel ModelCompiler::Parts::model_within(const Machine& room, const Mach
     }
     compiled.needs = scheduled.needs;
     return compiled;
+}
+
+CompiledModel ModelCompiler::Parts::model_that_fits(const Machine& room, const Machine& machine,
+                                                    const glm::vec3& light,
+                                                    const glm::vec3& ambient) {
+    try {
+        return model_within(room, machine, light, ambient);
+    } catch (const Shortage& shortage) {
+        if (machine.numbers != NumberModel::wide || shortage.needs.stages <= room.general_stages)
+            throw;
+    }
+    return model_within(room, machine, light, ambient, true);
 }
 
 ModelNeeds ModelCompiler::Parts::count_needs(const Shortage& first, const Machine& machine,
@@ -160,9 +177,15 @@ std::string ModelCompiler::Parts::with_passes(Machine machine, const ModelNeeds&
 
 CompiledModel ModelCompiler::Parts::compile(const Machine& machine, const glm::vec3& light,
                                             const glm::vec3& ambient) {
+    if (material.model == Model::lean && machine.numbers == NumberModel::nine_bit)
+        throw Error(ErrorCode::bad_program,
+                    fmt::format("lean on '{}': variances are small differences of filtered "
+                                "squares, which need registers of 16 bits, expected profile ideal "
+                                "or double",
+                                machine.name));
     try {
-        CompiledModel model =
-            model_within(machine.multipass ? with_room(machine) : machine, machine, light, ambient);
+        CompiledModel model = model_that_fits(machine.multipass ? with_room(machine) : machine,
+                                              machine, light, ambient);
         if (!machine.multipass || has_room_for(machine, model.program)) return model;
         try {
             model.passes = passes_of(model.program, machine);

@@ -138,7 +138,8 @@ const std::vector<NodeSet>& Cover::cuts(const Expr& e) {
         // Multiples are read from what they are multiples of.
         const bool is_multiple = e.op == ExprOp::multiply && e.args[0]->op == ExprOp::constant;
         if (!is_multiple) found.push_back({&e});
-        if (!is_leaf(e)) {
+        // A clamped value is for a register: tables are of what it is, not of what is below it.
+        if (!is_leaf(e) && symmetric_clamp(e) == nullptr) {
             std::vector<NodeSet> merged{{}};
             for (const ExprPtr& arg : e.args) {
                 std::vector<NodeSet> wider;
@@ -244,7 +245,9 @@ const Cover::Way& Cover::best(const Expr& e) {
                 way.cost = arg(0) + arg(1);
             break;
         case ExprOp::minimum:
-            if (is_constant(0) || is_constant(1)) {
+            if (const Expr* inner = symmetric_clamp(e)) {
+                way.cost = best(*inner).cost + kOperation;
+            } else if (is_constant(0) || is_constant(1)) {
                 const Way& below = best(*e.args[is_constant(0) ? 1 : 0]);
                 const double bound = e.args[is_constant(0) ? 0 : 1]->value.x;
                 way.cost = arg(0) + arg(1) + kOperation;
@@ -288,6 +291,8 @@ void Cover::choose(const Expr& e) {
     if (way.is_table) {
         for (const Expr* arg : way.cut.args) choose(*arg);
         m_tables.push_back(&e);
+    } else if (const Expr* inner = symmetric_clamp(e)) {
+        choose(*inner);
     } else if (!is_leaf(e)) {
         for (const ExprPtr& arg : e.args) choose(*arg);
     }

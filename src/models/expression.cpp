@@ -36,6 +36,14 @@ constexpr std::array kLeaves{
     Leaf{"h_dot_l", ExprOp::geometry, ValueKind::scalar},
 };
 
+/// x along u, y towards smaller rows, z along the mesh's normal.
+struct Axis {
+    std::string_view name;
+    glm::dvec3 value;
+};
+constexpr std::array kAxes{Axis{"ex", {1.0, 0.0, 0.0}}, Axis{"ey", {0.0, 1.0, 0.0}},
+                           Axis{"ez", {0.0, 0.0, 1.0}}};
+
 Binding later(Binding a, Binding b) {
     return std::max(a, b);
 }
@@ -55,7 +63,7 @@ bool is_negation(const Expr& e) {
 }  // namespace
 
 struct ExprBuilder::Table {
-    using Key = std::tuple<ExprOp, ValueKind, std::string, double, double, double,
+    using Key = std::tuple<ExprOp, ValueKind, Binding, std::string, double, double, double,
                            std::vector<const Expr*>>;
     std::map<Key, ExprPtr> nodes;
 };
@@ -71,7 +79,8 @@ void ExprBuilder::at(std::size_t line, std::size_t column) {
 ExprPtr ExprBuilder::intern(Expr expr) {
     std::vector<const Expr*> args;
     for (const ExprPtr& arg : expr.args) args.push_back(arg.get());
-    Table::Key key{expr.op, expr.kind, expr.name, expr.value.x, expr.value.y, expr.value.z, args};
+    Table::Key key{expr.op,      expr.kind,    expr.binding, expr.name,
+                   expr.value.x, expr.value.y, expr.value.z, args};
     const auto at = m_table->nodes.find(key);
     if (at != m_table->nodes.end()) return at->second;
     expr.line = m_line;
@@ -99,8 +108,16 @@ std::vector<std::string_view> ExprBuilder::leaf_names() {
     for (const Leaf& leaf : kLeaves) names.push_back(leaf.name);
     return names;
 }
+std::vector<std::string_view> ExprBuilder::axis_names() {
+    std::vector<std::string_view> names;
+    for (const Axis& axis : kAxes) names.push_back(axis.name);
+    return names;
+}
 
 ExprPtr ExprBuilder::leaf(std::string_view name) {
+    for (const Axis& axis : kAxes) {
+        if (axis.name == name) return constant(ValueKind::vector, axis.value);
+    }
     const auto at = std::find_if(kLeaves.begin(), kLeaves.end(),
                                  [&](const Leaf& leaf) { return leaf.name == name; });
     if (at == kLeaves.end()) return nullptr;
@@ -113,15 +130,39 @@ ExprPtr ExprBuilder::leaf(std::string_view name) {
 }
 
 ExprPtr ExprBuilder::quantity(std::string name, const ExprPtr& value) {
+    return quantity_of(std::move(name), value, Binding::texel, Extreme::none);
+}
+
+ExprPtr ExprBuilder::filtered(const ExprPtr& value) {
+    const bool has_name = value->op == ExprOp::quantity || value->op == ExprOp::parameter;
+    return quantity_of(has_name ? value->name : print_expression(*value),
+                       value->op == ExprOp::quantity ? value->args.front() : value, Binding::pixel,
+                       Extreme::none);
+}
+
+ExprPtr ExprBuilder::extreme(Extreme which, const ExprPtr& value) {
+    const ExprPtr& defined = value->op == ExprOp::quantity ? value->args.front() : value;
+    return quantity_of(fmt::format("{}({})", which == Extreme::least ? "least" : "most",
+                                   print_expression(*defined)),
+                       defined, Binding::pixel, which);
+}
+
+ExprPtr ExprBuilder::quantity_of(std::string name, const ExprPtr& value, Binding binding,
+                                 Extreme extreme) {
     if (value->binding == Binding::constant) return value;
     const bool is_exponent = value->op == ExprOp::parameter && value->name == "N";
+    ExponentCoding coding = is_exponent ? m_exponent_coding : ExponentCoding::automatic;
+    // What the text itself calls filtered has no other mean.
+    if (binding == Binding::pixel && coding == ExponentCoding::automatic)
+        coding = ExponentCoding::linear;
     return intern({.op = ExprOp::quantity,
                    .kind = value->kind,
-                   .binding = Binding::texel,
+                   .binding = binding,
                    .value = {},
                    .name = std::move(name),
                    .args = {value},
-                   .coding = is_exponent ? m_exponent_coding : ExponentCoding::automatic});
+                   .coding = coding,
+                   .extreme = extreme});
 }
 
 ExprPtr ExprBuilder::node(ExprOp op, ValueKind kind, std::vector<ExprPtr> args) {
@@ -308,6 +349,11 @@ class Printer {
         }
         switch (e.op) {
             case ExprOp::constant:
+                for (const Axis& axis : kAxes) {
+                    if (e.kind != ValueKind::vector || e.value != axis.value) continue;
+                    m_text += axis.name;
+                    return;
+                }
                 m_text +=
                     e.kind == ValueKind::scalar
                         ? fmt::format("{:.6g}", e.value.x)
@@ -345,7 +391,13 @@ class Printer {
             case ExprOp::maximum:
                 return call("max", e);
             default:
-                m_text += e.name;
+                // The names of extremes are calls themselves.
+                if (e.op == ExprOp::quantity && e.binding == Binding::pixel &&
+                    e.extreme == Extreme::none) {
+                    m_text += "filtered(" + e.name + ")";
+                } else {
+                    m_text += e.name;
+                }
         }
     }
     [[nodiscard]] std::string text() && { return std::move(m_text); }
@@ -385,6 +437,14 @@ std::string print_expression(const Expr& expr) {
     Printer printer;
     printer.print(expr);
     return std::move(printer).text();
+}
+
+const Expr* symmetric_clamp(const Expr& e) {
+    if (e.op != ExprOp::minimum || e.args[1]->op != ExprOp::constant) return nullptr;
+    const Expr& inner = *e.args[0];
+    const double bound = e.args[1]->value.x;
+    if (inner.op != ExprOp::maximum || !(bound > 0.0)) return nullptr;
+    return is_number(*inner.args[1], -bound) ? inner.args[0].get() : nullptr;
 }
 
 bool is_number(const Expr& expr, double value) {

@@ -21,7 +21,10 @@ enum class ExprOp {
     constant,
     parameter,  ///< of the material: texel binding
     geometry,   ///< of the pixel: l, v, h, n_dot_l, h_dot_l
-    quantity,   ///< a named expression of parameters: one quantity of the material layer
+    /// A named expression of parameters: one quantity of the material layer. Of texel binding, what
+    /// is made of it may be another quantity; of pixel binding (`filtered`), it is what the filter
+    /// gives.
+    quantity,
     add,
     multiply,
     divide,
@@ -32,6 +35,9 @@ enum class ExprOp {
     minimum,
     maximum,
 };
+
+/// A number that all values of a quantity have in common.
+enum class Extreme { none, least, most };
 
 struct Expr;
 using ExprPtr = std::shared_ptr<const Expr>;
@@ -45,7 +51,8 @@ struct Expr {
     std::string name;       ///< of leaves and quantities
     std::vector<ExprPtr> args;
     ExponentCoding coding = ExponentCoding::automatic;  ///< of a quantity that is the exponent
-    std::size_t column = 0;                             ///< from 1, where the text has it first
+    Extreme extreme = Extreme::none;  ///< of a quantity: not itself, but that of all texels
+    std::size_t column = 0;           ///< from 1, where the text has it first
     std::size_t line = 1;
     std::size_t id = 0;  ///< in the order in which nodes were made
 };
@@ -70,10 +77,16 @@ class ExprBuilder {
 
     ExprPtr number(double value);
     ExprPtr constant(ValueKind kind, const glm::dvec3& value);
-    /// A parameter or a value of the pixel by its name; null for an unknown one.
+    /// A parameter, a value of the pixel or an axis of the surface by its name; null for an unknown
+    /// one.
     ExprPtr leaf(std::string_view name);
     /// `value`, which depends on parameters only, under a name. Constants stay what they are.
     ExprPtr quantity(std::string name, const ExprPtr& value);
+    /// `value`, which depends on parameters only, as the filter gives it at a pixel: what is made
+    /// of it is not filtered again. Constants stay what they are.
+    ExprPtr filtered(const ExprPtr& value);
+    /// The least or the largest number that `value`, a scalar of parameters only, has at any texel.
+    ExprPtr extreme(Extreme which, const ExprPtr& value);
     ExprPtr add(const ExprPtr& a, const ExprPtr& b);
     ExprPtr multiply(const ExprPtr& a, const ExprPtr& b);
     /// The same, but the vectors of dot products stay as they are: once quantities have been named.
@@ -88,10 +101,13 @@ class ExprBuilder {
     ExprPtr maximum(const ExprPtr& a, const ExprPtr& b);
 
     static std::vector<std::string_view> leaf_names();
+    /// Constants: unit vectors of the surface.
+    static std::vector<std::string_view> axis_names();
 
   private:
     ExprPtr node(ExprOp op, ValueKind kind, std::vector<ExprPtr> args);
     ExprPtr intern(Expr expr);
+    ExprPtr quantity_of(std::string name, const ExprPtr& value, Binding binding, Extreme extreme);
     struct Table;
     std::unique_ptr<Table> m_table;
     std::size_t m_line = 1, m_column = 1;
@@ -124,6 +140,10 @@ class Tape {
 /// In the language of models; quantities by their names, numbers with six digits. "..." stands for
 /// what is left beyond some 2000 characters.
 std::string print_expression(const Expr& expr);
+
+/// x of clamp(x, -c, c) with a constant c > 0, where a register that counts in units of c stops
+/// anyway; else null.
+const Expr* symmetric_clamp(const Expr& expr);
 
 /// Whether `expr` is the scalar constant `value`.
 bool is_number(const Expr& expr, double value);

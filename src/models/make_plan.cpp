@@ -84,21 +84,29 @@ class Planner {
         return term.color || least <= 0.0 ? kAll : 1.0 / least;
     }
 
-    /// `e` is wanted up to `reach`; beyond, it may stop.
-    void demand(const Expr& e, double reach) {
+    /// `e` is wanted up to `reach`, and only from `from` on; beyond, it may stop.
+    void demand(const Expr& e, double reach, double from = -kAll) {
         if (e.kind != ValueKind::scalar || e.op == ExprOp::constant) return;
         const auto [at, is_new] = m_reach.emplace(&e, reach);
         if (!is_new && at->second >= reach) return;
         at->second = reach;
         if (m_cover.table(e) != nullptr) {
             const std::vector<const Expr*>& args = m_cover.table(e)->args;
-            for (std::size_t i = 0; i < args.size(); ++i)
-                demand(*args[i], m_domains.at(&e).arguments[i].high);
+            for (std::size_t i = 0; i < args.size(); ++i) {
+                const Interval& domain = m_domains.at(&e).arguments[i];
+                demand(*args[i], domain.high, domain.low);
+            }
             return;
         }
         const auto low = [&](std::size_t i) { return m_ranges.of(*e.args[i]).low; };
         switch (e.op) {
             case ExprOp::add:
+                // x - y with y >= 0 is below `from` once y is beyond high(x) - from.
+                if (is_negation(*e.args[1]) && m_ranges.of(*e.args[1]).high <= 0.0) {
+                    demand(*e.args[0], kAll, from);
+                    demand(*e.args[1]->args[1], m_ranges.of(*e.args[0]).high - from);
+                    return;
+                }
                 // Of summands that are not negative each may stop where the sum does.
                 for (const ExprPtr& arg : e.args)
                     demand(*arg, low(0) >= 0.0 && low(1) >= 0.0 ? reach : kAll);
@@ -124,6 +132,8 @@ class Planner {
                 }
                 return;
             case ExprOp::minimum:
+                if (const Expr* inner = symmetric_clamp(e))
+                    return demand(*inner, e.args[1]->value.x);
                 for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
                     const Expr& bound = *e.args[1 - i];
                     if (bound.op == ExprOp::constant) demand(*e.args[i], bound.value.x);
@@ -151,7 +161,9 @@ class Planner {
         glm::dvec3 box(m_task.most_tilt);
         std::vector<glm::dvec3> axes;
         for (const auto& [e, reach] : m_reach) {
-            if (e->op != ExprOp::dot || !is_half_vector(*e->args[0])) continue;
+            if (e->op != ExprOp::dot || !is_half_vector(*e->args[0]) ||
+                e->args[1]->op == ExprOp::constant)
+                continue;
             const QuantityValues& q = m_task.quantities.at(e->args[1].get());
             if (!q.is_tangent) continue;
             box += reach * q.spread;
@@ -248,9 +260,9 @@ class Planner {
         v.op = PlanOp::quantity;
         v.kind = q.kind;
         v.index = static_cast<int>(i);
-        const bool vector = q.kind == ValueKind::vector;
+        const bool coded = q.is_coded();
         if (i == m_plan.quantities.size()) m_plan.quantities.push_back(std::move(q));
-        return {add(v), vector ? Mapping::expand : Mapping::signed_identity};
+        return {add(v), coded ? Mapping::expand : Mapping::signed_identity};
     }
 
     /// Powers of two that bring a result in units of `unit` as close to `wanted` as no overflow
@@ -340,6 +352,8 @@ class Planner {
                 if (!is_number(*e.args[0], 0.0) && !is_number(*e.args[1], 0.0)) needs_table(e);
                 return positive(is_number(*e.args[0], 0.0) ? *e.args[1] : *e.args[0]);
             case ExprOp::minimum: {
+                if (const Expr* inner = symmetric_clamp(e))
+                    return clamped(e, *inner, e.args[1]->value.x);
                 const bool first = e.args[0]->op == ExprOp::constant;
                 if (!first && e.args[1]->op != ExprOp::constant) needs_table(e);
                 const Expr& bound = first ? *e.args[0] : *e.args[1];
@@ -381,7 +395,8 @@ class Planner {
             q.unit = glm::dvec3(dmath::log2(values.high.x) - q.low);
             return {quantity(q), 1.0};
         }
-        q.unit = glm::dvec3(std::max(values.high.x, 1e-6));
+        q.is_signed = values.low.x < 0.0;
+        q.unit = glm::dvec3(std::max({values.high.x, -values.low.x, 1e-6}));
         return {quantity(q), q.unit.x};
     }
 
@@ -407,6 +422,7 @@ class Planner {
         const Expr& pixel = *e.args[0];
         const Expr& texel = *e.args[1];
         const double wanted = wanted_of(e);
+        if (texel.op == ExprOp::constant) return dot_with_constant(pixel, texel.value, wanted);
         const auto shared = m_shared_units.find(&e);
         const double unit = shared == m_shared_units.end() ? unit_of_dot(e) : shared->second;
         PlanQuantity q{.name = texel.name,
@@ -415,6 +431,18 @@ class Planner {
                        .unit = unit * scale_of(pixel)};
         return arithmetic(ValueKind::scalar,
                           {input(pixel.name, ValueKind::vector), quantity(q), unit, true}, wanted);
+    }
+    /// Constants hold no signs: those of a vector that has negative components are coded like it.
+    Operand dot_with_constant(const Expr& pixel, const glm::dvec3& v, double wanted) {
+        const glm::dvec3 q = v / scale_of(pixel);
+        const double unit = largest(glm::abs(q));
+        const bool is_negative = std::min({q.x, q.y, q.z}) < 0.0;
+        PlanInput constant_vector =
+            constant(ValueKind::color, is_negative ? 0.5 * (q / unit) + 0.5 : q / unit);
+        if (is_negative) constant_vector.mapping = Mapping::expand;
+        return arithmetic(ValueKind::scalar,
+                          {input(pixel.name, ValueKind::vector), constant_vector, unit, true},
+                          wanted);
     }
     double wanted_of(const Expr& e) { return std::max(reach(e), 1e-6); }
     glm::dvec3 scale_of(const Expr& pixel) const {
@@ -557,20 +585,32 @@ class Planner {
         return Operand{{y.input.value, Mapping::unsigned_invert}, 1.0};
     }
 
+    /// x of -bound .. bound in units of the bound. What has far larger ones takes a fetch instead
+    /// of stages that double.
+    Operand clamped(const Expr& e, const Expr& inner, double bound) {
+        const Operand x = lower(inner);
+        const double staged = m_task.few_stages ? 1.0 : 4.0;
+        if (x.unit <= staged * (1.0 + 1e-9) * bound || m_task.numbers == NumberModel::nine_bit)
+            return in_units(x, bound);
+        return table_over(e, {&inner}, {{-x.unit, x.unit}});
+    }
+
     // --- tables ---------------------------------------------------------------------------------
 
     Operand table(const Expr& e) {
-        const std::vector<const Expr*>& args = m_cover.table(e)->args;
+        return table_over(e, m_cover.table(e)->args, m_domains.at(&e).arguments);
+    }
+
+    Operand table_over(const Expr& e, const std::vector<const Expr*>& args,
+                       const std::vector<Interval>& domain) {
         PlanTable t;
-        const TableDomain& domain = m_domains.at(&e);
         t.function = print_expression(e);
         for (std::size_t i = 0; i < args.size(); ++i) {
-            t.axes.push_back(axis(*args[i], domain.arguments[i]));
+            t.axes.push_back(axis(*args[i], domain[i]));
             t.axes.back().name = print_expression(*args[i]);
         }
         if (m_task.table_filter == TableFilter::exact) require_one_computed(t);
-        m_tables.fill(t, e, args, domain.arguments,
-                      m_task.fine_tables ? NumberModel::wide : m_task.numbers);
+        m_tables.fill(t, e, args, domain, m_task.fine_tables ? NumberModel::wide : m_task.numbers);
         PlanValue v;
         v.op = PlanOp::table;
         v.index = static_cast<int>(m_plan.tables.size());
@@ -834,6 +874,9 @@ class Planner {
         return sum_so_far->input;
     }
 
+    static bool is_negation(const Expr& e) {
+        return e.op == ExprOp::multiply && is_number(*e.args[0], -1.0);
+    }
     static bool is_one_minus(const Expr& e) {
         return e.op == ExprOp::add && is_number(*e.args[0], 1.0) &&
                e.args[1]->op == ExprOp::multiply && is_number(*e.args[1]->args[0], -1.0);

@@ -81,14 +81,15 @@ MaterialTerms::MaterialTerms(const Material& material)
     // Numbers and colours that do not vary are constants of the program.
     std::vector<std::pair<const Expr*, glm::dvec3>> constants;
     for (const auto& [quantity, v] : m_quantities) {
-        if (v.low != v.high) continue;
+        const Extreme extreme = quantity->extreme;
+        if (extreme == Extreme::none && v.low != v.high) continue;
         // Registers hold no signs in constants; a vector of length 0 is none.
         if (quantity->kind == ValueKind::vector && v.longest > 0.0) continue;
-        constants.emplace_back(quantity, v.low);
+        constants.emplace_back(quantity, extreme == Extreme::most ? v.high : v.low);
         LayerQuantity same;
         same.name = quantity->name;
         same.components = quantity->kind == ValueKind::scalar ? 1 : 3;
-        same.constant = v.low;
+        same.constant = constants.back().second;
         same.definition = print_expression(*quantity->args.front());
         m_constants.push_back(std::move(same));
     }

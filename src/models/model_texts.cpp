@@ -109,6 +109,31 @@ r = min(1, nl / gl)
 G = min(1, r / max(1/64, r + min(1, nv / gv)))
 s = 1 / sqrt(gv)
 (A * (1 - F) + S * F) * (s * (s * (D * G))) + kd * nl)";
+        case Model::lean:  // M - B B^T = L L^T: whitened by L^-1 no number is a square's square
+            return R"(nz = max(1/64, dot(n, ez))
+Bx = dot(n, ex) / nz
+By = dot(n, ey) / nz
+p = alpha_x / nz^2
+r = alpha_y / nz^2
+Sxx = ((p * dot(b, ey))^2 + (r * dot(t, ey))^2) / 2
+Sxy = -(p^2 * dot(b, ex) * dot(b, ey) + r^2 * dot(t, ex) * dot(t, ey)) / 2
+Syy = ((p * dot(b, ex))^2 + (r * dot(t, ex))^2) / 2
+Mxx = Bx^2 + Sxx
+Mxy = Bx * By + Sxy
+Myy = By^2 + Syy
+E = ks / (8 * pi * nz^3)
+x = filtered(Bx)
+y = filtered(By)
+across = sqrt(most(Myy))
+P = 1 / sqrt(max(least(Sxx), filtered(Mxx) - x^2))
+g = clamp((filtered(Mxy) - x * y) * P, -across, across)
+Q = 1 / sqrt(max(least(Syy - Sxy^2 / Sxx), filtered(Myy) - y^2 - g^2))
+hz = dot(h, ez)
+u = clamp((dot(h, ex) - x * hz) * P, -5, 5)
+w = clamp((dot(h, ey) - y * hz - g * u) * Q, -5, 5)
+nl = max(0, dot(n, l))
+lobe = exp(-(u^2 + w^2) / (2 * max(1/8, hz)^2))
+E * lobe * sqrt(nl) * (1 / sqrt(max(1/32, dot(n, v)))) * (P * Q) + kd * nl)";
         case Model::text:
             break;
     }

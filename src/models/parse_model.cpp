@@ -343,6 +343,7 @@ class Parser {
         m_builder.at(at.line, at.column);
         if (ExprPtr leaf = m_builder.leaf(at.text)) return leaf;
         std::vector<std::string_view> known = ExprBuilder::leaf_names();
+        for (const std::string_view axis : ExprBuilder::axis_names()) known.push_back(axis);
         known.emplace_back("pi");
         const std::size_t of_language = known.size();
         for (const auto& [name, value] : m_names) known.push_back(name);
@@ -353,10 +354,14 @@ class Parser {
     }
 
     ExprPtr call(const Token& function) {
-        constexpr std::string_view kFunctions[] = {"dot", "sqrt", "pow",  "exp",
-                                                   "min", "max",  "clamp"};
+        constexpr std::string_view kFunctions[] = {"dot", "sqrt",  "pow",      "exp",   "min",
+                                                   "max", "clamp", "filtered", "least", "most"};
+        constexpr std::string_view kOfTwo[] = {"dot", "pow", "min", "max"};
         const std::string_view name = function.text;
-        const std::size_t expected = name == "clamp" ? 3 : name == "sqrt" || name == "exp" ? 1 : 2;
+        const bool of_two =
+            std::find(std::begin(kOfTwo), std::end(kOfTwo), name) != std::end(kOfTwo);
+        const std::size_t expected = name == "clamp" ? 3 : of_two ? 2 : 1;
+        const bool of_texel = name == "filtered" || name == "least" || name == "most";
         if (std::find(std::begin(kFunctions), std::end(kFunctions), name) == std::end(kFunctions))
             fail(function, fmt::format("unknown function {}, {}", quoted(name),
                                        expected_one_of(name, kFunctions)));
@@ -377,7 +382,14 @@ class Parser {
         } else {
             for (const ExprPtr& arg : args) require(function, arg, ValueKind::scalar);
         }
+        if (of_texel && args[0]->binding == Binding::pixel)
+            fail(function, fmt::format("'{}' of what varies from pixel to pixel, expected what is "
+                                       "known at the texel",
+                                       name));
         count(function);
+        if (name == "filtered") return m_builder.filtered(args[0]);
+        if (name == "least") return m_builder.extreme(Extreme::least, args[0]);
+        if (name == "most") return m_builder.extreme(Extreme::most, args[0]);
         if (name == "dot") return m_builder.dot(args[0], args[1]);
         if (name == "sqrt") {
             require_not_negative(function, *args[0]);

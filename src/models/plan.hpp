@@ -77,14 +77,17 @@ struct PlanTable {
 };
 
 /// A quantity of the material layer as the program wants it: divided by `unit`, component by
-/// component; vectors then coded x/2 + 1/2.
+/// component; vectors, and numbers of both signs, then coded x/2 + 1/2.
 struct PlanQuantity {
     std::string name;
     const Expr* expr = nullptr;
     ValueKind kind = ValueKind::scalar;
     glm::dvec3 unit{1.0};
+    bool is_signed = false;    ///< scalars: x/2 + 1/2
     bool logarithmic = false;  ///< scalars: log2, from `low` on, unit octaves
     double low = 0.0;
+
+    [[nodiscard]] bool is_coded() const { return kind == ValueKind::vector || is_signed; }
 };
 
 /// The final combiner: a (e f) + d, or a b + d. Zero where nothing is named.

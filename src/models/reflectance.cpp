@@ -162,4 +162,15 @@ double ggx(const SurfaceFrame& frame, const glm::dvec3& l, const glm::dvec3& v, 
     return ggx_distribution(frame, a.h, alpha) * visibility * schlick_fresnel(f0, glm::dot(a.h, v));
 }
 
+double lean(const SurfaceFrame& frame, const glm::dvec3& l, const glm::dvec3& v,
+            const Widths& alpha) noexcept {
+    const Angles a(frame, l, v, alpha);
+    if (!a.above() || !(frame.n.z > 0.0) || !(a.h.z > 0.0)) return 0.0;
+    const glm::dvec3 d = a.h / a.h.z - frame.n / frame.n.z;
+    const double spread =
+        square(glm::dot(frame.t, d) / alpha.x) + square(glm::dot(frame.b, d) / alpha.y);
+    return std::exp(-square(frame.n.z) * spread) /
+           (4.0 * pi * alpha.x * alpha.y * std::sqrt(a.n_l * a.n_v));
+}
+
 }  // namespace burnish::reflectance

@@ -77,6 +77,19 @@ glm::dvec3 ggx(const Surface& s, const Directions& to) {
     return fresnel(s, to) * lobe + s.kd * a.n_l;
 }
 
+/// Olano, Baker, LEAN Mapping, 2010, of Ward's height: the covariance of slopes is M - B B^T.
+glm::dvec3 lean(const Surface& s, const Directions& to) {
+    const Terms a(s, to);
+    const glm::dvec3 diffuse = s.kd * a.n_l;
+    const double xx = s.Mxx.x - square(s.Bx.x), yy = s.Myy.x - square(s.By.x),
+                 xy = s.Mxy.x - s.Bx.x * s.By.x;
+    const double determinant = xx * yy - square(xy);
+    if (!(to.h.z > 0.0) || !(determinant > 0.0)) return diffuse;
+    const double x = to.h.x / to.h.z - s.Bx.x, y = to.h.y / to.h.z - s.By.x;
+    const double q = (square(x) * yy - 2.0 * x * y * xy + square(y) * xx) / determinant;
+    return s.E * (std::sqrt(a.n_l / a.n_v) * std::exp(-0.5 * q) / std::sqrt(determinant)) + diffuse;
+}
+
 }  // namespace
 
 double lobe_coordinate(const Surface& surface, const Directions& to) {
@@ -124,6 +137,8 @@ glm::dvec3 reflected(Model model, const Surface& s, const Directions& to,
             return ashikhmin_shirley(s, to);
         case Model::ggx:
             return ggx(s, to);
+        case Model::lean:
+            return lean(s, to);
         case Model::text:
             break;
     }

@@ -8,8 +8,10 @@ namespace burnish::reference {
 namespace {
 
 constexpr glm::dvec3 Surface::*kMembers[] = {
-    &Surface::n, &Surface::t,  &Surface::X,  &Surface::Y, &Surface::U, &Surface::V, &Surface::P,
-    &Surface::Q, &Surface::ks, &Surface::kd, &Surface::N, &Surface::S, &Surface::A};
+    &Surface::n,   &Surface::t,   &Surface::X,   &Surface::Y,  &Surface::U,
+    &Surface::V,   &Surface::P,   &Surface::Q,   &Surface::ks, &Surface::kd,
+    &Surface::N,   &Surface::S,   &Surface::A,   &Surface::Bx, &Surface::By,
+    &Surface::Mxx, &Surface::Mxy, &Surface::Myy, &Surface::E};
 
 /// Height of the lobe.
 double height(Model model, double alpha_x, double alpha_y) {
@@ -34,6 +36,27 @@ Surface operator+(const Surface& a, const Surface& b) {
     return sum;
 }
 
+namespace {
+
+/// A lobe of variances alpha^2 / 2 along t and b at n, seen in slopes. A half vector that is moved
+/// from n along t by s has its slope moved by (t - n t.z / n.z) s / n.z.
+void add_moments(Surface& s, const TexelParameters& p) {
+    const double nz = std::max(p.n.z, 1.0 / 64.0);
+    const auto moved = [&](const glm::dvec3& along, double alpha) {
+        return glm::dvec2(along - p.n * (along.z / nz)) * (alpha / (std::numbers::sqrt2 * nz));
+    };
+    const glm::dvec2 mean = glm::dvec2(p.n) / nz;
+    const glm::dvec2 a = moved(p.t, p.alpha_x), c = moved(p.b, p.alpha_y);
+    s.Bx = glm::dvec3(mean.x);
+    s.By = glm::dvec3(mean.y);
+    s.Mxx = glm::dvec3(mean.x * mean.x + a.x * a.x + c.x * c.x);
+    s.Mxy = glm::dvec3(mean.x * mean.y + a.x * a.y + c.x * c.y);
+    s.Myy = glm::dvec3(mean.y * mean.y + a.y * a.y + c.y * c.y);
+    s.E = p.ks / (8.0 * std::numbers::pi * nz * nz * nz);
+}
+
+}  // namespace
+
 Surface surface_of(Model model, const TexelParameters& p) {
     const bool round = model == Model::blinn_phong;
     const double peak = height(model, p.alpha_x, p.alpha_y);
@@ -56,6 +79,7 @@ Surface surface_of(Model model, const TexelParameters& p) {
     const bool schlick = model == Model::ashikhmin_shirley || model == Model::ggx;
     s.A = p.ks * peak;
     s.S = schlick ? glm::dvec3(peak) : s.A;
+    if (model == Model::lean) add_moments(s, p);
     return s;
 }
 

@@ -19,6 +19,9 @@ struct Surface {
     glm::dvec3 ks{0.0}, kd{0.0}, N{0.0};
     glm::dvec3 S{0.0};  ///< ks times the lobe's height, with a Fresnel factor the height
     glm::dvec3 A{0.0};  ///< height times ks, which is F0
+    /// Of lean, in the plane of slopes (x / z, y / z): mean and second moments of the lobe.
+    glm::dvec3 Bx{0.0}, By{0.0}, Mxx{0.0}, Mxy{0.0}, Myy{0.0};
+    glm::dvec3 E{0.0};  ///< ks / (8 pi n.z^3)
 };
 
 Surface operator*(const Surface& surface, double factor);

@@ -14,7 +14,7 @@ struct NamedQuantity {
     std::string_view name;
     glm::dvec3 Surface::*member;
 };
-constexpr std::array<NamedQuantity, 13> kQuantities{{{"n", &Surface::n},
+constexpr std::array<NamedQuantity, 19> kQuantities{{{"n", &Surface::n},
                                                      {"t", &Surface::t},
                                                      {"X", &Surface::X},
                                                      {"Y", &Surface::Y},
@@ -26,7 +26,13 @@ constexpr std::array<NamedQuantity, 13> kQuantities{{{"n", &Surface::n},
                                                      {"kd", &Surface::kd},
                                                      {"S", &Surface::S},
                                                      {"A", &Surface::A},
-                                                     {"N", &Surface::N}}};
+                                                     {"N", &Surface::N},
+                                                     {"Bx", &Surface::Bx},
+                                                     {"By", &Surface::By},
+                                                     {"Mxx", &Surface::Mxx},
+                                                     {"Mxy", &Surface::Mxy},
+                                                     {"Myy", &Surface::Myy},
+                                                     {"E", &Surface::E}}};
 
 /// Names of what the formulas of shade.cpp read.
 std::span<const std::string_view> needed(Model model) {
@@ -37,7 +43,10 @@ std::span<const std::string_view> needed(Model model) {
     static constexpr std::string_view kWard[] = {"X", "Y", "n", "S", "kd"};
     static constexpr std::string_view kAshikhmin[] = {"U", "V", "n", "A", "S", "kd"};
     static constexpr std::string_view kGgx[] = {"X", "Y", "P", "Q", "n", "A", "S", "kd"};
+    static constexpr std::string_view kLean[] = {"Bx", "By", "Mxx", "Mxy", "Myy", "E", "n", "kd"};
     switch (model) {
+        case Model::lean:
+            return kLean;
         case Model::blinn_phong:
         case Model::abp:
             return kBlinnPhong;

@@ -136,6 +136,27 @@ TextModel::TextModel(const Material& material)
     leaves.insert(leaves.end(), m_geometry.begin(), m_geometry.end());
     m_formula.emplace(*m_value, leaves);
     if (!m_source.varies()) m_constant = texel(m_source.at(0, 0));
+    find_extremes();
+}
+
+void TextModel::find_extremes() {
+    for (std::size_t i = 0; i < m_quantities.size(); ++i) {
+        if (m_quantities[i]->extreme == Extreme::none) continue;
+        m_extremes.emplace_back(i, texel(m_source.at(0, 0)).values[i]);
+    }
+    if (m_extremes.empty()) return;
+    for (int level = 0; level < m_source.levels(); ++level) {
+        for (int y = 0; y < m_source.height(level); ++y) {
+            for (int x = 0; x < m_source.width(level); ++x) {
+                const TextSurface here = texel(m_source.at(level, x, y));
+                for (auto& [i, value] : m_extremes) {
+                    const bool is_least = m_quantities[i]->extreme == Extreme::least;
+                    value = is_least ? glm::min(value, here.values[i])
+                                     : glm::max(value, here.values[i]);
+                }
+            }
+        }
+    }
 }
 
 TextModel::TextModel(const Material& material, std::span<const LayerQuantity> layer)
@@ -181,6 +202,7 @@ TextSurface TextModel::at(const glm::dvec2& uv, const CoordinateSteps& all_steps
     for (std::size_t i = 0; i < m_layer.size(); ++i) {
         if (m_layer[i]) surface.values[i] = layer_value(*m_layer[i], uv, steps);
     }
+    for (const auto& [i, value] : m_extremes) surface.values[i] = value;
     return surface;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "models/expression.hpp"
@@ -60,6 +61,7 @@ class TextModel {
   private:
     [[nodiscard]] TextSurface exact(const glm::dvec2& uv, const CoordinateSteps& steps) const;
     [[nodiscard]] TextSurface texel(const TexelParameters& parameters) const;
+    void find_extremes();
 
     TexelSource m_source;
     bool m_has_mipmaps;
@@ -67,6 +69,8 @@ class TextModel {
     std::vector<const Expr*> m_quantities, m_parameters, m_geometry;
     std::vector<Formula> m_definitions;  ///< of the quantities, by the parameters
     std::optional<Formula> m_formula;    ///< by the quantities and what varies from pixel to pixel
+    /// Of quantities that are the least or the largest of all texels.
+    std::vector<std::pair<std::size_t, glm::dvec3>> m_extremes;
     std::vector<std::optional<LayerQuantity>> m_layer;  ///< of the quantities, or empty
     std::optional<TextSurface> m_constant;              ///< without maps
 };

@@ -128,4 +128,12 @@ struct PhongExponents {
 [[nodiscard]] double ggx(const SurfaceFrame& frame, const glm::dvec3& l, const glm::dvec3& v,
                          const Widths& alpha, double f0) noexcept;
 
+/// exp(-z^2 ((t.d / alpha_x)^2 + (b.d / alpha_y)^2)) / (4 pi alpha_x alpha_y sqrt((n.l) (n.v)))
+/// with z = n.z and d the slope of h, (h.x / h.z, h.y / h.z, 0), less that of n; 0 unless both
+/// cosines, n.z and h.z are positive: a Gaussian in the slopes of the surface, whose normal is (0,
+/// 0, 1). As high and as wide as `ward` at h = n, and `ward` where n is (0, 0, 1). Olano and Baker,
+/// LEAN Mapping, I3D 2010, whose Gaussian this is, for one normal.
+[[nodiscard]] double lean(const SurfaceFrame& frame, const glm::dvec3& l, const glm::dvec3& v,
+                          const Widths& alpha) noexcept;
+
 }  // namespace burnish::reflectance
