@@ -11,6 +11,7 @@
 #include "lab/experiment/experiments.hpp"
 #include "lab/experiment/formula.hpp"
 #include "lab/experiment/verdicts.hpp"
+#include "tests/float_picture.hpp"
 #include "tests/json.hpp"
 #include "tests/run_command.hpp"
 
@@ -132,6 +133,34 @@ TEST_F(ExperimentCommand, WritesEveryDocument) {
     for (const char* what :
          {"test.exr", "reference.exr", "test.png", "reference.png", "error.png", "flip.png"})
         EXPECT_TRUE(std::filesystem::exists(path("out/images/ball-nv2a-0.3.") += what)) << what;
+}
+
+TEST_F(ExperimentCommand, SheetsShowPicturesAndNumbers) {
+    const std::string one_row = "[[sheets]]\ntitle = \"more\"\nwhere = { machine = \"ideal\" }\n";
+    write_experiment(one_row);
+    compute("out");
+    const Framebuffer sheet = load_frame(path("out/sheets/sheet-1.exr"));
+    const Framebuffer test = load_frame(path("out/images/ball-nv2a-0.3.test.exr"));
+    const Framebuffer flip = load_frame(path("out/images/ball-nv2a-0.3.flip.png"));
+    // Two lines of text, one above the row; 32 pixels eight times as large, gaps of 6.
+    constexpr int kTop = 3 * 22, kColumn = 256 + 6;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            EXPECT_EQ(glm::vec3(get(sheet, 6 + 8 * x + 3, kTop + 8 * y + 5)),
+                      glm::vec3(get(test, x, y)));
+            EXPECT_EQ(get(sheet, 6 + 3 * kColumn + 8 * x, kTop + 8 * y), get(flip, x, y));
+        }
+    }
+    EXPECT_EQ(load_image(path("out/sheets/sheet-1.png")).width, sheet.width());
+    // What stands above the two rows of the second sheet differs where labels and numbers do.
+    const Framebuffer rows = load_frame(path("out/sheets/sheet-2.exr"));
+    int labels = 0, numbers = 0;
+    for (int y = 44; y < kTop; ++y)
+        for (int x = 0; x < rows.width(); ++x)
+            (x < 2 * kColumn ? labels : numbers) +=
+                get(rows, x, y) != get(rows, x, y + 22 + 256 + 6) ? 1 : 0;
+    EXPECT_GT(labels, 10) << "0.3 and 0.6";
+    EXPECT_GT(numbers, 10) << "two errors";
 }
 
 TEST_F(ExperimentCommand, GoesOnWhereItStopped) {

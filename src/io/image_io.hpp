@@ -3,6 +3,8 @@
 #include <burnish/framebuffer.hpp>
 #include <burnish/texture.hpp>
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <string_view>
 
 /// Image files behind files.hpp; the contracts stand there.
 namespace burnish {
@@ -13,5 +15,7 @@ Image16 read_image16_file(const std::filesystem::path& path);
 Framebuffer read_frame_file(const std::filesystem::path& path);
 void write_frame_file(const Framebuffer& frame, const std::filesystem::path& path);
 void write_image_file(const Image8& image, const std::filesystem::path& path);
+void draw_text_into(Framebuffer& frame, int x, int y, std::string_view text, int size,
+                    const glm::vec4& color);
 
 }  // namespace burnish

@@ -72,6 +72,15 @@ std::string inputs_fingerprint(const Experiment& experiment) {
     return all.text();
 }
 
+/// A sheet's captions have RMSE and FLIP, whatever the experiment asks for.
+std::vector<std::string> asked_metrics(const Experiment& experiment, bool on_sheet) {
+    std::vector<std::string> names = experiment.metrics;
+    for (const char* caption : {"rmse", "flip"})
+        if (on_sheet && std::find(names.begin(), names.end(), caption) == names.end())
+            names.emplace_back(caption);
+    return names;
+}
+
 /// What the cells of a group have in common.
 struct Reference {
     double light = 1.0;  ///< factor of all lights
@@ -170,7 +179,7 @@ class Runner {
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                 .count();
         Measurement measured =
-            measure(test, reference.frame, experiment().metrics, sheet != nullptr, one);
+            measure(test, reference.frame, asked_metrics(experiment(), sheet != nullptr), one);
         result.values = std::move(measured.values);
         if (sheet != nullptr)
             save_pictures(test, reference.frame, measured.flip, sheet->gain,
