@@ -35,6 +35,8 @@ void check(const StageBits& bits) {
     check_bits("combiners", bits.combiners, 2);
     for (const int b : bits.combiner_stages) check_bits("a combiner stage", b, 2);
     check_bits("table", bits.table, 1);
+    check_bits("table_index", bits.table_index, 1);
+    check_bits("table_values", bits.table_values, 1);
     check_bits("frame", bits.frame, 1);
 }
 
@@ -52,25 +54,53 @@ bool half_is_a_code(const Machine& machine) {
     return machine.numbers == NumberModel::wide;
 }
 
+/// Whether models' tables are to be looked up on a TableGrid.
+bool has_grid(const StageBits& bits) {
+    return bits.table_index != kExactBits || bits.table_values != kExactBits ||
+           bits.table_axis != TableSpacing::lobe || bits.table_linear;
+}
+
+/// What is drawn, and the tables of a model.
+struct FineProgram {
+    ProgramMaterial program;
+    std::vector<TableReport> tables;
+};
+
 /// An object in one light.
 struct LitDraw {
     Draw draw;
     CombinerProgram program;
     std::vector<bool> coded;
+    std::vector<TableGrid::Table> tables;
+    std::optional<TableGrid> grid;  ///< of the bits that are drawn with
 };
 
+std::vector<TableGrid::Table> tables_of(const Shading& shading,
+                                        const std::vector<TableReport>& reports) {
+    std::vector<TableGrid::Table> tables;
+    for (const TableReport& report : reports) {
+        TableGrid::Table& table = tables.emplace_back();
+        table.texels = shading.textures.at(static_cast<std::size_t>(report.unit))->texels();
+        for (std::size_t axis = 0; axis < report.axes.size(); ++axis) {
+            table.first.at(axis) = report.axes[axis].first;
+            table.last.at(axis) = report.axes[axis].last;
+        }
+    }
+    return tables;
+}
+
 /// Models with fine texels; programs and maps of the talk's model as they are.
-ProgramMaterial fine_program(const Object& object, const Scene& scene, std::size_t light,
-                             DerivedMaps& maps) {
+FineProgram fine_program(const Object& object, const Scene& scene, std::size_t light,
+                         DerivedMaps& maps) {
     const Material& material = object.material ? *object.material : Material{};
     const bool has_maps = material.model == Model::abp_modified && material.tangent_map;
     if (material.program || has_maps || !std::holds_alternative<Mesh>(object.geometry))
-        return program_of(object, scene, light, maps);
+        return {program_of(object, scene, light, maps), {}};
     const Light source = scene.lights.empty() ? Light{.intensity = 0.0F} : scene.lights[light];
-    return ModelCompiler(material)
-        .compile(scene.machine.for_programs(), source.color * source.intensity,
-                 light == 0 ? scene.ambient : glm::vec3(0.0F), TexelPrecision::fine)
-        .program;
+    CompiledModel model = ModelCompiler(material).compile(
+        scene.machine.for_programs(), source.color * source.intensity,
+        light == 0 ? scene.ambient : glm::vec3(0.0F), TexelPrecision::fine);
+    return {std::move(model.program), std::move(model.tables)};
 }
 
 /// The bits of each general stage.
@@ -118,12 +148,14 @@ struct BitRenderer::State {
         std::vector<std::unique_ptr<LitDraw>>& lit = draws.emplace_back();
         const std::size_t lights = std::max<std::size_t>(scene.lights.size(), 1);
         for (std::size_t light = 0; light < lights; ++light) {
-            const ProgramMaterial program = fine_program(object, scene, light, maps);
+            const FineProgram fine = fine_program(object, scene, light, maps);
+            const ProgramMaterial& program = fine.program;
             LitDraw& in = *lit.emplace_back(std::make_unique<LitDraw>());
             prepare_draw(in.draw, view, object, {&program, 1}, light, {.everything = true});
             transform_draw(in.draw, view, object, table_reference(), pool);
             in.program = program.combiners;
             in.coded = coded_planes(in.draw.shading, in.program);
+            in.tables = tables_of(in.draw.shading, fine.tables);
         }
         const Draw& first = lit.front()->draw;
         if (first.ordered || first.shading.quads)
@@ -133,6 +165,25 @@ struct BitRenderer::State {
                                     first.ordered ? "what is blended or dropped after shading"
                                                   : "mip levels at computed coordinates"));
         rules.push_back(first.depth);
+    }
+
+    /// Before shading with `bits`.
+    void make_grids(const StageBits& bits) {
+        for (const auto& lights : draws) {
+            for (const auto& lit : lights) {
+                lit->grid.reset();
+                if (!has_grid(bits)) continue;
+                if (lit->tables.empty() && !lit->draw.shading.stage_fetches.empty())
+                    throw Error(ErrorCode::bad_option,
+                                "table_index, table_values, table_axis or table_filter with a "
+                                "material's own program, expected a model");
+                lit->grid = TableGrid{.spacing = bits.table_axis,
+                                      .linear = bits.table_linear,
+                                      .index = bits.table_index,
+                                      .values = bits.table_values,
+                                      .tables = lit->tables};
+            }
+        }
     }
 
     /// Calls take(triangle, x, y) for every visible fragment of tile (x, y).
@@ -178,7 +229,8 @@ struct BitRenderer::State {
                                      .vectors = bits.half_vector,
                                      .texels = bits.textures,
                                      .filter = bits.filter,
-                                     .table = bits.table};
+                                     .table = bits.table,
+                                     .grid = lit.grid ? &*lit.grid : nullptr};
         ExactInputs inputs(shading, lit.draw.mesh(), triangle, x, y, rounding);
         for (const InputOp& op : shading.inputs) inputs.feed(op);
         std::size_t next = 0;
@@ -221,6 +273,7 @@ BitRenderer::~BitRenderer() = default;
 Framebuffer BitRenderer::render(const StageBits& bits) {
     check(bits);
     State& s = *m_state;
+    s.make_grids(bits);
     Framebuffer target(s.size.width, s.size.height, PixelFormat::rgba32f);
     fill(target, s.scene.background);
     const std::int32_t columns = (s.size.width + kTileSize - 1) / kTileSize,
@@ -242,6 +295,7 @@ Framebuffer BitRenderer::render(const StageBits& bits) {
 std::optional<glm::dvec3> BitRenderer::pixel(const StageBits& bits, int x, int y) {
     check(bits);
     State& s = *m_state;
+    s.make_grids(bits);
     std::optional<glm::dvec3> color;
     s.for_each_fragment(x / kTileSize, y / kTileSize, s.visibility.front(),
                         [&](const SetupTriangle& triangle, int at_x, int at_y) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/quantiser.hpp"
+#include "trace/table_grid.hpp"
 
 /// A picture whose numbers are exact but at chosen stages: which of them costs how much.
 namespace burnish::lab {
@@ -32,6 +33,10 @@ struct StageBits {
     std::vector<int> combiner_stages = {};
     /// Dependent tables: 2^b texels along every axis, none between them, of b bits.
     int table = kExactBits;
+    /// The same of models' tables in more detail (trace/table_grid.hpp).
+    int table_index = kExactBits, table_values = kExactBits;
+    TableSpacing table_axis = TableSpacing::lobe;
+    bool table_linear = false;
     int frame = kExactBits;  ///< the final combiner: its product, its lerp and what it delivers
     BitRounding rounding = BitRounding::nearest;
 };
@@ -54,7 +59,7 @@ class BitRenderer {
 
     /// rgba32f, alpha 1 where there is a surface, else the scene's background; one sample at the
     /// centre of each pixel. Throws Error{bad_option} for bits outside 1 .. 24, of combiners 2
-    /// .. 24.
+    /// .. 24, and for details of tables where a material has a program of its own.
     Framebuffer render(const StageBits& bits);
     /// Red, green and blue of pixel (x, y) of the frame; nothing where it shows the background.
     std::optional<glm::dvec3> pixel(const StageBits& bits, int x, int y);

@@ -444,7 +444,7 @@ void ExactInputs::fetch(const Texture& texture, int plane, int channels) {
         const double lower = lerp(texel(0, 1), texel(1, 1), m_column.weight);
         const double value = lerp(upper, lower, m_row.weight);
         m_planes[static_cast<std::size_t>(to)] =
-            rounded(value, to, is_signed, m_is_table ? m_rounding.table : kExactBits);
+            rounded(value, to, is_signed, m_is_table ? table_values() : kExactBits);
     }
     m_rounding = kept;
 }
@@ -494,19 +494,81 @@ Reals ExactInputs::fetch_between_stages(std::size_t number, const std::array<dou
     return reals;
 }
 
+double ExactInputs::along(const LookUpTableCtx::Axis& axis, double at) {
+    const double scaled = at * static_cast<double>(axis.scale) + static_cast<double>(axis.offset);
+    return scaled / static_cast<double>(axis.divisor);
+}
+
+int ExactInputs::table_values() const {
+    const bool given = m_rounding.grid != nullptr && m_rounding.grid->values != kExactBits;
+    return given ? m_rounding.grid->values : m_rounding.table;
+}
+
+ExactInputs::GridPlace ExactInputs::grid_place(const LookUpTableCtx& ctx, std::size_t axis,
+                                               double at) {
+    const LookUpTableCtx::Axis& of = axis == 0 ? ctx.s : ctx.t;
+    if (of.plane < 0) return {};
+    const TableGrid& grid = *m_rounding.grid;
+    const auto table = std::find_if(grid.tables.begin(), grid.tables.end(),
+                                    [&](const auto& each) { return each.texels == ctx.texels; });
+    const SpacedAxis spaced(grid.spacing, table->first.at(axis), table->last.at(axis));
+    const Position exact =
+        position(along(of, at), of.size, AddressMode::clamp_to_edge, true, false);
+    const double last = of.size - 1;
+    const auto place = [&](double coordinate) {
+        const double x = last * spaced.position(coordinate);
+        const double left = std::clamp(std::floor(x), 0.0, std::max(last - 1.0, 0.0));
+        return Position{static_cast<int>(left), x - left};
+    };
+    if (of.size < 2) return {exact, exact, 0.0};
+    double coordinate =
+        spaced.coordinate(std::clamp((exact.texel + exact.weight) / last, 0.0, 1.0));
+    Quantiser& quantiser = *m_rounding.quantiser;
+    coordinate = quantiser.unsigned_number(coordinate, grid.index);
+    if (m_rounding.table == kExactBits || !grid.linear) {
+        const Position only = place(quantiser.unsigned_number(coordinate, m_rounding.table));
+        return {only, only, 0.0};
+    }
+    const double steps = std::ldexp(1.0, m_rounding.table) - 1.0;
+    const double below = std::min(std::floor(coordinate * steps), steps - 1.0);
+    return {place(below / steps), place((below + 1.0) / steps), coordinate * steps - below};
+}
+
 void ExactInputs::look_up(const LookUpTableCtx& ctx, double s, double t) {
     m_is_table = true;
-    const auto along = [&](const LookUpTableCtx::Axis& axis, double at) {
-        const double scaled =
-            at * static_cast<double>(axis.scale) + static_cast<double>(axis.offset);
-        return table_position(scaled / static_cast<double>(axis.divisor), axis.size,
-                              AddressMode::clamp_to_edge, true, false);
-    };
     m_level = m_layer = 0;
-    m_column = along(ctx.s, s);
-    m_row = ctx.t.plane < 0 ? Position{} : along(ctx.t, t);
+    const Texture& texture = texture_at(m_shading, ctx.texels);
+    const auto fetch_all = [&](const auto& use) {
+        for (const int out : ctx.out) {
+            if (out < 0) continue;
+            fetch(texture, out, 1);
+            use(m_planes[static_cast<std::size_t>(out)]);
+        }
+    };
+    if (m_rounding.grid == nullptr || m_rounding.quantiser == nullptr) {
+        const auto place = [&](const LookUpTableCtx::Axis& axis, double at) {
+            return table_position(along(axis, at), axis.size, AddressMode::clamp_to_edge, true,
+                                  false);
+        };
+        m_column = place(ctx.s, s);
+        m_row = ctx.t.plane < 0 ? Position{} : place(ctx.t, t);
+        fetch_all([](double&) {});
+        return;
+    }
+    const GridPlace column = grid_place(ctx, 0, s), row = grid_place(ctx, 1, t);
+    // Every channel has the same texels.
+    std::array<double, 4> corners{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        m_column = k % 2 == 0 ? column.low : column.high;
+        m_row = k < 2 ? row.low : row.high;
+        fetch_all([&](double& value) { corners.at(k) = value; });
+    }
+    const double value = mix(mix(corners[0], corners[1], column.weight),
+                             mix(corners[2], corners[3], column.weight), row.weight);
     for (const int out : ctx.out)
-        if (out >= 0) fetch(texture_at(m_shading, ctx.texels), out, 1);
+        if (out >= 0)
+            m_planes[static_cast<std::size_t>(out)] =
+                rounded(value, out, texture.is_signed(0), table_values());
 }
 
 const Texture& texture_at(const Shading& shading, const std::uint8_t* texels) {

@@ -8,6 +8,7 @@
 #include "machine/interpreter.hpp"
 #include "shade/attributes.hpp"
 #include "shade/shading.hpp"
+#include "trace/table_grid.hpp"
 
 namespace burnish {
 
@@ -20,6 +21,7 @@ struct InputRounding {
     int texels = kExactBits;
     int filter = kExactBits;  ///< each lerp, and the fraction of its weight, cut off downwards
     int table = kExactBits;   ///< of texels at computed coordinates: 2^b along an axis, of b bits
+    const TableGrid* grid = nullptr;  ///< of models' tables; null: as TableGrid is made
 };
 
 /// Register planes that hold x/2 + 1/2, since `program` or a texture unit expands them.
@@ -76,6 +78,16 @@ class ExactInputs {
     static Position position(double u, int size, AddressMode mode, bool linear, bool rectangle);
     /// The same, on the grid of a table if the coordinate was computed.
     Position table_position(double u, int size, AddressMode mode, bool linear, bool rectangle);
+    /// Two texels of a model's table on the grid of InputRounding::grid, as positions in the table
+    /// that the program has.
+    struct GridPlace {
+        Position low, high;
+        double weight;
+    };
+    GridPlace grid_place(const LookUpTableCtx& ctx, std::size_t axis, double at);
+    /// A coordinate of a table's axis as 0 .. 1.
+    static double along(const LookUpTableCtx::Axis& axis, double at);
+    [[nodiscard]] int table_values() const;
     /// The weight of a lerp as its filter has it.
     [[nodiscard]] double cut(double weight) const;
     /// A number for `plane`, or a channel of a texel.
