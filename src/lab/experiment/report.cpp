@@ -276,7 +276,7 @@ std::string write_results(const Results& results, const Store& store) {
     save_text(results_json(results, judgements), directory / "results.json");
     save_text(manifest_json(results), directory / "manifest.json");
     save_text(verdicts_markdown(results, judgements), directory / "verdicts.md");
-    const DrawnPlots plots = draw_plots(results, directory / "plots");
+    const DrawnPlots plots = draw_plots(results, store, directory / "plots");
     const DrawnSheets sheets = draw_sheets(results, store, directory / "sheets");
     save_text(report_html(results, judgements, plots, sheets), directory / "report.html");
     return plots.problem.empty() ? sheets.problem : plots.problem;
