@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/multipass.hpp>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -209,20 +210,75 @@ struct BitRenderer::State {
 
     [[nodiscard]] glm::dvec3 shade(const StageBits& bits, const SetupTriangle& triangle, int x,
                                    int y) const {
-        glm::dvec3 sum(0.0);
+        const Shading& first = draws[triangle.draw].front()->draw.shading;
+        if (!first.corners) return in_all_lights(bits, triangle, x, y, nullptr).color;
+        TexelCornerCtx corner = first.corners->corner;
+        const Filtered lower = at_corners(bits, triangle, x, y, corner);
+        if (!first.corners->blends_levels() || lower.level_weight == 0.0) return lower.color;
+        corner.choice = LevelChoice::ceiling;
+        const Filtered upper = at_corners(bits, triangle, x, y, corner);
+        Quantiser quantiser(bits.rounding);
+        quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                        kFilterStream);
+        return lerp(bits, lower.color, upper.color, lower.level_weight, quantiser);
+    }
+
+    /// A colour, and where the sample point lies between texels and levels.
+    struct Filtered {
+        glm::dvec3 color{0.0};
+        std::array<double, 2> weights{};
+        double level_weight = 0.0;
+    };
+    static constexpr std::uint32_t kFilterStream = kMaxLights;  ///< no light has it
+
+    /// One lerp of the filter after combining.
+    static glm::dvec3 lerp(const StageBits& bits, const glm::dvec3& a, const glm::dvec3& b,
+                           double weight, Quantiser& quantiser) {
+        const double one = std::ldexp(1.0, bits.filter);
+        const double w = bits.filter == kExactBits ? weight : std::floor(weight * one) / one;
+        glm::dvec3 result;
+        for (int c = 0; c < 3; ++c)
+            result[c] = quantiser.unsigned_number(a[c] + (b[c] - a[c]) * w, bits.filter);
+        return result;
+    }
+
+    [[nodiscard]] Filtered at_corners(const StageBits& bits, const SetupTriangle& triangle, int x,
+                                      int y, TexelCornerCtx corner) const {
+        std::array<Filtered, FilterCtx::kCorners> at;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            corner.right = static_cast<std::uint8_t>(k & 1);
+            corner.below = static_cast<std::uint8_t>(k >> 1);
+            at[k] = in_all_lights(bits, triangle, x, y, &corner);
+        }
+        Quantiser quantiser(bits.rounding);
+        quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                        kFilterStream + 1);
+        const auto [right, below] = at[0].weights;
+        const glm::dvec3 top = lerp(bits, at[0].color, at[1].color, right, quantiser);
+        const glm::dvec3 bottom = lerp(bits, at[2].color, at[3].color, right, quantiser);
+        return {lerp(bits, top, bottom, below, quantiser), at[0].weights, at[0].level_weight};
+    }
+
+    /// @param corner  null: at the pixel's own coordinates
+    [[nodiscard]] Filtered in_all_lights(const StageBits& bits, const SetupTriangle& triangle,
+                                         int x, int y, const TexelCornerCtx* corner) const {
+        Filtered sum;
         for (std::size_t light = 0; light < draws[triangle.draw].size(); ++light) {
             Quantiser quantiser(bits.rounding);
             quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                             static_cast<std::uint32_t>(light));
-            sum += shade(bits, *draws[triangle.draw][light], triangle, x, y, quantiser);
+            const Filtered one =
+                shade(bits, *draws[triangle.draw][light], triangle, x, y, corner, quantiser);
+            sum = {sum.color + one.color, one.weights, one.level_weight};
         }
-        return glm::min(sum, 1.0);
+        sum.color = glm::min(sum.color, 1.0);
+        return sum;
     }
 
     /// In one light.
-    [[nodiscard]] glm::dvec3 shade(const StageBits& bits, const LitDraw& lit,
-                                   const SetupTriangle& triangle, int x, int y,
-                                   Quantiser& quantiser) const {
+    [[nodiscard]] Filtered shade(const StageBits& bits, const LitDraw& lit,
+                                 const SetupTriangle& triangle, int x, int y,
+                                 const TexelCornerCtx* corner, Quantiser& quantiser) const {
         const Shading& shading = lit.draw.shading;
         const InputRounding rounding{.quantiser = &quantiser,
                                      .coded = half_is_a_code(scene.machine) ? &lit.coded : nullptr,
@@ -232,6 +288,19 @@ struct BitRenderer::State {
                                      .table = bits.table,
                                      .grid = lit.grid ? &*lit.grid : nullptr};
         ExactInputs inputs(shading, lit.draw.mesh(), triangle, x, y, rounding);
+        Filtered result;
+        if (corner != nullptr) {
+            // The plane of each light's program has its own place.
+            TexelCornerCtx own = shading.corners->corner;
+            own.right = corner->right;
+            own.below = corner->below;
+            own.choice = corner->choice;
+            for (const InputOp& op : shading.corners->level) inputs.feed(op);
+            inputs.stand_at(own);
+            result.weights = inputs.corner_weights();
+            const double lod = own.lambda < 0 ? 0.0 : inputs.plane(own.lambda);
+            result.level_weight = lod - std::floor(lod);
+        }
         for (const InputOp& op : shading.inputs) inputs.feed(op);
         std::size_t next = 0;
         const FetchReals fetch = [&](const StageFetch& f, const std::array<double, 3>& at) {
@@ -242,7 +311,8 @@ struct BitRenderer::State {
         const std::vector<int> stages = stage_bits(bits, lit.program.stages.size());
         const Reals color = run_combiners_exactly(lit.program, scene.machine, inputs.registers(),
                                                   nullptr, fetch, {&quantiser, stages, bits.frame});
-        return {color[0], color[1], color[2]};
+        result.color = {color[0], color[1], color[2]};
+        return result;
     }
 
     const Scene& scene;
@@ -262,10 +332,6 @@ BitRenderer::BitRenderer(const Scene& scene, int threads) {
         throw Error(ErrorCode::bad_option,
                     "chosen bits with profile double, which has no stages; expected one of the "
                     "machines");
-    if (scene.machine.filter_order == FilterOrder::after)
-        throw Error(ErrorCode::bad_option,
-                    "chosen bits with filter_order = after, expected before: stages that run at "
-                    "four texels have no bits of their own");
     m_state = std::make_unique<State>(scene, threads);
 }
 BitRenderer::~BitRenderer() = default;

@@ -26,7 +26,9 @@ struct StageBits {
     /// Vectors, cosines and colours that the interpolators bring to registers, coded.
     int half_vector = kExactBits;
     int textures = kExactBits;  ///< texels of the material layer
-    int filter = kExactBits;    ///< each lerp between texels; b bits of its weight, downwards
+    /// Each lerp between texels, or with FilterOrder::after between the colours at texels; b bits
+    /// of its weight, downwards.
+    int filter = kExactBits;
     /// Products and outputs of general stages, and their constants: a sign and b - 1 bits.
     int combiners = kExactBits;
     /// General stages one by one, instead of `combiners`; those beyond the end have that.
@@ -50,8 +52,8 @@ class BitRenderer {
     /// @param scene    outlives this object
     /// @param threads  0: one per core; pictures have the same bits with any number
     /// Throws Error{bad_program} for blended draws, fragments that may be dropped after shading and
-    /// mip levels at computed coordinates, Error{bad_option} for profile double, for a filter after
-    /// combining, and what Renderer::render throws.
+    /// mip levels at computed coordinates, Error{bad_option} for profile double, and what
+    /// Renderer::render throws.
     explicit BitRenderer(const Scene& scene, int threads = 0);
     ~BitRenderer();
     BitRenderer(const BitRenderer&) = delete;

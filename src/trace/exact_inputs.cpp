@@ -17,6 +17,11 @@ double clamp_to_one(double x) {
     return x > 0.0 ? std::min(x, 1.0) : 0.0;
 }
 
+/// Whether an attribute comes of texels or light, and is not where a corner stands.
+bool is_computed(int attribute) {
+    return attribute >= kMaxInterpolated && attribute != kCornerAttributes;
+}
+
 double mix(double a, double b, double weight) {
     return a + (b - a) * weight;
 }
@@ -309,7 +314,8 @@ void ExactInputs::locate(const AddressCtx& ctx) {
     m_u = attribute(ctx.u) / q;
     m_v = attribute(ctx.v) / q;
     m_level = m_layer = 0;
-    m_is_table = ctx.u >= kMaxInterpolated;
+    m_is_table = is_computed(ctx.u);
+    m_is_texel = ctx.u == kCornerAttributes && is_texel(ctx.width, ctx.height);
     const bool linear = ctx.linear != 0, rectangle = ctx.rectangle != 0;
     m_column = table_position(m_u, ctx.width, ctx.mode_s, linear, rectangle);
     m_row = table_position(m_v, ctx.height, ctx.mode_t, linear, rectangle);
@@ -323,11 +329,13 @@ void ExactInputs::locate(const LevelAddressCtx& ctx) {
     const double lod = ctx.lambda < 0 ? 0.0 : plane(ctx.lambda);
     const bool linear = (lod > 0.0 ? ctx.min_linear : ctx.mag_linear) != 0;
     const bool nearest = ctx.choice == LevelChoice::nearest;
-    m_level = chosen_level(
-        ctx, static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
+    m_level =
+        chosen_level(ctx.choice, ctx.level_count,
+                     static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
     const LevelAddressCtx::Level& level = ctx.levels[m_level];
     const bool rectangle = ctx.rectangle != 0;
-    m_is_table = ctx.u >= kMaxInterpolated && ctx.face < 0;
+    m_is_table = is_computed(ctx.u) && ctx.face < 0;
+    m_is_texel = ctx.u == kCornerAttributes && is_texel(level.width, level.height);
     m_column = table_position(m_u, level.width, ctx.mode_s, linear, rectangle);
     m_row = table_position(m_v, level.height, ctx.mode_t, linear, rectangle);
     m_layer = ctx.face < 0 ? 0 : static_cast<int>(plane(ctx.face));
@@ -337,6 +345,51 @@ void ExactInputs::locate(const LevelAddressCtx& ctx) {
     if (ctx.slice_weight >= 0) {
         m_planes[static_cast<std::size_t>(ctx.slice_weight)] = slice.weight;
     }
+}
+
+namespace {
+
+struct CornerPlace {
+    double coordinate, weight;
+};
+
+/// TexelCornerCtx along one axis, without rounding.
+CornerPlace corner_place(double u, double size, double scale, AddressMode mode, bool linear,
+                         bool second) {
+    constexpr double kHair = 0x1p-30;
+    const bool mirrored = mode == AddressMode::mirrored_repeat;
+    const double whole = mode == AddressMode::repeat ? std::floor(u)
+                         : mirrored                  ? 2.0 * std::floor(u * 0.5)
+                                                     : 0.0;
+    const double f = u - whole;
+    const double g = mirrored && f > 1.0 ? 2.0 - f : f;
+    const double x = g * size / scale - (linear ? 0.5 : 0.0), left = std::floor(x);
+    const double c = (left + (second ? 1.5 : 0.5) + kHair) * scale / size;
+    return {whole + (mirrored && f > 1.0 ? 2.0 - c : c), linear ? x - left : 0.0};
+}
+
+}  // namespace
+
+void ExactInputs::stand_at(const TexelCornerCtx& corner) {
+    const double q = corner.q < 0 ? 1.0 : attribute(corner.q);
+    const double lod = corner.lambda < 0 ? 0.0 : plane(corner.lambda);
+    const bool linear = (lod > 0.0 ? corner.min_linear : corner.mag_linear) != 0;
+    const bool nearest = corner.choice == LevelChoice::nearest;
+    const int level =
+        chosen_level(corner.choice, corner.level_count,
+                     static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
+    const LevelAddressCtx::Level& of = corner.levels[level];
+    const auto place = [&](int coordinate, int size, AddressMode mode, bool second) {
+        return corner_place(attribute(coordinate) / q, size, corner.rectangle != 0 ? size : 1.0,
+                            mode, linear, second);
+    };
+    const CornerPlace s = place(corner.u, of.width, corner.mode_s, corner.right != 0);
+    const CornerPlace t = place(corner.v, of.height, corner.mode_t, corner.below != 0);
+    set_attribute(corner.to, s.coordinate);
+    set_attribute(corner.to + 1, t.coordinate);
+    m_corner_weights = {s.weight, t.weight};
+    m_corner_size = {of.width, of.height};
+    if (corner.level >= 0) m_planes[static_cast<std::size_t>(corner.level)] = level;
 }
 
 namespace {
@@ -437,7 +490,7 @@ void ExactInputs::fetch(const Texture& texture, int plane, int channels) {
                            to, is_signed, m_is_table ? kExactBits : m_rounding.texels);
         };
         const auto lerp = [&](double a, double b, double weight) {
-            if (m_is_table) return mix(a, b, weight);
+            if (m_is_table || m_is_texel) return mix(a, b, weight);
             return rounded(mix(a, b, cut(weight)), to, is_signed, m_rounding.filter);
         };
         const double upper = lerp(texel(0, 0), texel(1, 0), m_column.weight);
@@ -536,6 +589,7 @@ ExactInputs::GridPlace ExactInputs::grid_place(const LookUpTableCtx& ctx, std::s
 
 void ExactInputs::look_up(const LookUpTableCtx& ctx, double s, double t) {
     m_is_table = true;
+    m_is_texel = false;
     m_level = m_layer = 0;
     const Texture& texture = texture_at(m_shading, ctx.texels);
     const auto fetch_all = [&](const auto& use) {
@@ -576,9 +630,9 @@ const Texture& texture_at(const Shading& shading, const std::uint8_t* texels) {
                           [&](const TexturePtr& t) { return t && t->texels() == texels; });
 }
 
-int chosen_level(const LevelAddressCtx& ctx, int lod) {
-    const int last = ctx.level_count - 1;
-    switch (ctx.choice) {
+int chosen_level(LevelChoice choice, int level_count, int lod) {
+    const int last = level_count - 1;
+    switch (choice) {
         case LevelChoice::base:
             break;
         case LevelChoice::nearest:

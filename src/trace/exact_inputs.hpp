@@ -39,6 +39,11 @@ class ExactInputs {
     /// Operations come in the order of shading.inputs. What a quad covers, QuadFootprintCtx, is for
     /// the caller to set.
     void feed(const InputOp& op);
+    /// Moves the coordinates of corners to one of the texels around the sample point, a hair behind
+    /// its centre, so that other operations find nothing but that texel.
+    void stand_at(const TexelCornerCtx& corner);
+    /// What the right and the lower texels around the sample point weigh; known after stand_at.
+    [[nodiscard]] std::array<double, 2> corner_weights() const { return m_corner_weights; }
     /// Registers before the program; units that are off read (0, 0, 0, 1), those without a result
     /// (0, 0, 0, 0).
     [[nodiscard]] RealRegisters registers() const;
@@ -88,6 +93,9 @@ class ExactInputs {
     /// A coordinate of a table's axis as 0 .. 1.
     static double along(const LookUpTableCtx::Axis& axis, double at);
     [[nodiscard]] int table_values() const;
+    [[nodiscard]] bool is_texel(std::int32_t width, std::int32_t height) const {
+        return m_corner_size == std::array{width, height};
+    }
     /// The weight of a lerp as its filter has it.
     [[nodiscard]] double cut(double weight) const;
     /// A number for `plane`, or a channel of a texel.
@@ -102,6 +110,9 @@ class ExactInputs {
     // What the last address found.
     int m_level = 0, m_layer = 0;
     Position m_column{}, m_row{};
+    std::array<double, 2> m_corner_weights{};
+    std::array<std::int32_t, 2> m_corner_size{};  ///< of the level that the corner is a texel of
+    bool m_is_texel = false;  ///< the last address is that of a corner's own texel
     bool m_is_table = false;  ///< coordinates were computed from texels, registers or light
 };
 
@@ -109,7 +120,7 @@ class ExactInputs {
 const Texture& texture_at(const Shading& shading, const std::uint8_t* texels);
 
 /// Which level an address takes for a level of detail; numbers of levels and 1/256 levels.
-int chosen_level(const LevelAddressCtx& ctx, int lod);
+int chosen_level(LevelChoice choice, int level_count, int lod);
 
 /// The slice behind slice `at`.
 int slice_behind(int at, int depth, AddressMode mode);
