@@ -8,108 +8,13 @@
 #include <string>
 #include <variant>
 
-#include "lab/experiment/experiments.hpp"
 #include "lab/experiment/formula.hpp"
 #include "lab/experiment/verdicts.hpp"
 #include "tests/json.hpp"
-#include "tests/run_command.hpp"
+#include "tests/tiny_experiment.hpp"
 
 namespace burnish {
 namespace {
-
-/// 2 x 2 cells of 32 x 32 pixels.
-class ExperimentCommand : public Command {
-  protected:
-    void SetUp() override {
-        Command::SetUp();
-        std::filesystem::create_directory(path("scenes"));
-        write(path("scenes/ball.toml"), R"(schema = 1
-[output]
-width = 32
-height = 32
-background = [0, 0, 0, 0]
-[[lights]]
-direction = [0.3, 0.8, 0.5]
-[[materials]]
-name = "metal"
-[[objects]]
-shape = "sphere"
-material = "metal"
-)");
-        write_experiment("");
-    }
-
-    void write_experiment(const std::string& more, const std::string& file = "scenes/ball.toml") {
-        write(path("tiny.toml"), R"(schema = 1
-title = "Tiny & small"
-hypothesis = "A machine is not exact."
-metrics = ["rmse", "bias", "flicker"]
-[[scenes]]
-name = "ball"
-file = ")" + file + R"("
-[[sweeps]]
-name = "machine"
-key = "machine.profile"
-values = ["nv2a", "ideal"]
-quick = ["ideal"]
-[[sweeps]]
-name = "width"
-variants = [
-  { label = 0.3, set = { "materials.metal.alpha_x" = 0.3 } },
-  { label = 0.6, set = { "materials.metal.alpha_x" = 0.6 } },
-]
-[pan]
-frames = 3
-samples = 4
-[reference]
-samples = 4
-set = { "machine.profile" = "double" }
-[[plots]]
-title = "errors"
-x = "width"
-y = "rmse"
-[[sheets]]
-title = "pictures"
-where = { machine = "nv2a", width = 0.3 }
-[[expect]]
-text = "nine bits are worse"
-metric = "rmse"
-measure = "ratio"
-where = { machine = "nv2a" }
-versus = { machine = "ideal" }
-at_least = 1
-)" + more);
-    }
-
-    /// In this process, as most tests do: the command loads the libraries of files every time.
-    lab::ExperimentOutcome compute(const std::string& directory, lab::RunOptions options = {}) {
-        return lab::run_experiment(path("tiny.toml").string(), path(directory), options, {});
-    }
-    lab::ExperimentOutcome merge(const std::vector<std::string>& shards, const std::string& to) {
-        std::vector<std::filesystem::path> directories;
-        for (const std::string& shard : shards) directories.push_back(path(shard));
-        return lab::merge_experiments(directories, path(to));
-    }
-    std::string csv(const std::string& directory) { return read(path(directory) / "results.csv"); }
-
-    /// That `action` throws an Error that says `part` and writes no file.
-    template <class Action>
-    void expect_error(const std::string& part, const Action& action) {
-        const std::vector<std::string> before = entries();
-        try {
-            action();
-            ADD_FAILURE() << "no error: " << part;
-        } catch (const Error& error) {
-            EXPECT_SAYS(std::string(error.what()), part);
-        }
-        EXPECT_EQ(entries(), before) << part;
-    }
-
-    void expect_bad_file(const std::string& more, const std::string& part) {
-        write_experiment(more);
-        expect_error(part, [&] { compute("out"); });
-    }
-};
 
 TEST_F(ExperimentCommand, WritesEveryDocument) {
     const Result result = run("experiment tiny.toml -o out");
@@ -212,6 +117,25 @@ TEST_F(ExperimentCommand, BadFilesNameTheLine) {
                     "the value '1' twice");
 }
 
+TEST_F(ExperimentCommand, TimesAreNoPartOfAResult) {
+    compute("out");
+    const std::string csv_once = csv("out");
+    const auto cell = std::filesystem::directory_iterator(path("out/cells"))->path();
+    const auto written = std::filesystem::last_write_time(cell);
+    std::string text = read(path("tiny.toml"));
+    write(path("tiny.toml"), "repeats = 3\n" + text);
+    compute("out");
+    EXPECT_EQ(std::filesystem::last_write_time(cell), written);
+    compute("timed");
+    EXPECT_EQ(csv("timed"), csv_once);
+    const Json results = Json::parse(read(path("timed/results.json")));
+    for (const Json& each : results["cells"].list) {
+        EXPECT_GT(each["ms_low"].number, 0.0);
+        EXPECT_LE(each["ms_low"].number, each["ms"].number);
+        EXPECT_LE(each["ms"].number, each["ms_high"].number);
+    }
+}
+
 TEST_F(ExperimentCommand, BadSettingsNameTheCell) {
     write_experiment("[set]\n\"materials.metal.alpha\" = 1\n");
     try {
@@ -270,7 +194,8 @@ class Judged : public testing::Test {
             lab::Cell cell;
             cell.values = {0, i};
             results.cells.push_back(cell);
-            results.found.push_back(lab::CellResult{{{"rmse", points[i].second}}, "", 0.0});
+            results.found.push_back(
+                lab::CellResult{{{"rmse", points[i].second}}, "", 0.0, 0.0, 0.0});
         }
         results.experiment.axes = {scene, axis};
         return results;

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/float_picture.hpp"
 #include "tests/scratch_directory.hpp"
 
 namespace burnish {
@@ -261,6 +262,34 @@ TEST_F(ImageFiles, ThreadsMayReadAndWriteTheSameNames) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(entries(), (std::vector<std::string>{"shared.png"}));
+}
+
+TEST(Text, IsWhereItWasAskedFor) {
+    constexpr glm::vec4 kColor{1.0F, 0.5F, 0.0F, 1.0F};
+    Framebuffer frame = plain(120, 40, 0.0F), wider = plain(120, 40, 0.0F);
+    draw_text(frame, 10, 30, "1.5", 16, kColor);
+    draw_text(wider, 10, 30, "1.5 1.5", 16, kColor);
+    int inked = 0, more = 0;
+    float brightest = 0.0F;
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 120; ++x) {
+            const glm::vec4 ink = get(frame, x, y);
+            if (ink.r > 0.0F) {
+                ++inked;
+                EXPECT_TRUE(x >= 10 && x < 42 && y >= 14 && y <= 30) << x << ' ' << y;
+                EXPECT_FLOAT_EQ(ink.g, 0.5F * ink.r);
+                EXPECT_EQ(ink, get(wider, x, y));
+            }
+            brightest = std::max(brightest, ink.r);
+            more += get(wider, x, y).r > 0.0F ? 1 : 0;
+        }
+    }
+    EXPECT_GT(brightest, 0.9F);
+    EXPECT_GT(inked, 30);
+    EXPECT_EQ(more, 2 * inked);
+    draw_text(frame, -5, 3, "cut off", 16, kColor);
+    Framebuffer bytes(8, 8);
+    EXPECT_EQ(error_of([&] { draw_text(bytes, 0, 8, "1", 8, kColor); }), ErrorCode::bad_option);
 }
 
 }  // namespace

@@ -89,6 +89,20 @@ TEST(Shapes, CubeAndPlane) {
     expect_unit_frames(plane);
 }
 
+TEST(Shapes, RibbonNormalsAreThoseOfItsFacets) {
+    const MeshData mesh = shapes::ribbon(200, 2);
+    EXPECT_EQ(mesh.indices.size(), 3U * 800U);
+    expect_unit_frames(mesh);
+    for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
+        const glm::dvec3 a(mesh.positions[mesh.indices[c]]), b(mesh.positions[mesh.indices[c + 1]]),
+            d(mesh.positions[mesh.indices[c + 2]]);
+        const glm::dvec3 facet = glm::normalize(glm::cross(b - a, d - a));
+        // From its middle to its end a segment turns by 0.15 (3 pi)^2 / 2 / 400 = 0.0167 at most.
+        EXPECT_GT(glm::dot(facet, glm::dvec3(mesh.normals[mesh.indices[c]])), 1.0 - 1.5e-4);
+        EXPECT_GT(facet.z, 0.0);
+    }
+}
+
 TEST(Shapes, RefusesWhatHasNoShape) {
     const auto code = [](auto make) {
         try {

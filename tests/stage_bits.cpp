@@ -8,7 +8,9 @@
 #include <burnish/renderer.hpp>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "lab/measure_model.hpp"
 #include "metrics/frame_errors.hpp"
@@ -122,17 +124,42 @@ TEST(StageBits, OneStageByHand) {
     EXPECT_FLOAT_EQ(red({.combiner_stages = {3}}), 1.0F / 3.0F);
 }
 
-// Between texels 0 and 1 at a quarter: 2 bits of weight leave it alone, one makes it 0.
+// Between texels 0 and 1 at a quarter: 2 bits of weight leave it alone, one makes it 0. A program
+// that leaves texels as they are gives the same if it is filtered after.
 TEST(StageBits, AFilterByHand) {
-    const Scene scene = textured_scene(make_texture({row_image({0, 255})}, {}), 1, 1,
-                                       everywhere({0.375F, 0.5F, 0.0F, 1.0F}));
-    const auto red = [&](int bits) {
-        return pixel(render_with_bits(scene, {.filter = bits}, 1), 0, 0).r;
+    Scene scene = textured_scene(make_texture({row_image({0, 255})}, {}), 1, 1,
+                                 everywhere({0.375F, 0.5F, 0.0F, 1.0F}));
+    for (const FilterOrder order : {FilterOrder::before, FilterOrder::after}) {
+        scene.machine.filter_order = order;
+        const auto red = [&](int bits) {
+            return pixel(render_with_bits(scene, {.filter = bits}, 1), 0, 0).r;
+        };
+        EXPECT_NEAR(red(kExactBits), 0.25F, 1e-7F);
+        EXPECT_FLOAT_EQ(red(4), 4.0F / 15.0F);  // 3.75 steps
+        EXPECT_FLOAT_EQ(red(2), 1.0F / 3.0F);   // 0.75 steps
+        EXPECT_FLOAT_EQ(red(1), 0.0F);
+    }
+}
+
+// Texels of 0 and 100/255: their squares, of 3 bits and a sign 0 and 1/7, at a quarter are 1/28.
+// The texel at a corner knows nothing of the filter's bits.
+TEST(StageBits, AFilterAfterCombiningByHand) {
+    Scene scene = textured_scene(make_texture({row_image({0, 100})}, {}), 1, 1,
+                                 everywhere({0.375F, 0.5F, 0.0F, 1.0F}));
+    Material material = *scene.objects.front().material;
+    Portion& rgb = material.program->combiners.stages.front().rgb;
+    rgb.b = rgb.a;
+    scene.objects.front().material = std::make_shared<const Material>(material);
+    scene.machine.filter_order = FilterOrder::after;
+    const auto red = [&](const StageBits& bits) {
+        return pixel(render_with_bits(scene, bits, 1), 0, 0).r;
     };
-    EXPECT_FLOAT_EQ(red(kExactBits), 0.25F);
-    EXPECT_FLOAT_EQ(red(4), 4.0F / 15.0F);  // 3.75 steps
-    EXPECT_FLOAT_EQ(red(2), 1.0F / 3.0F);   // 0.75 steps
-    EXPECT_FLOAT_EQ(red(1), 0.0F);
+    const float square = 100.0F * 100.0F / (255.0F * 255.0F);
+    EXPECT_NEAR(red({}), 0.25F * square, 1e-7F);
+    EXPECT_NEAR(red({.combiners = 4}), 0.25F / 7.0F, 1e-7F);
+    EXPECT_NEAR(red({.filter = 5}), std::round(31.0F * 0.25F * square) / 31.0F, 1e-7F);
+    scene.machine.filter_order = FilterOrder::before;
+    EXPECT_NEAR(red({}), square / 16.0F, 1e-7F);
 }
 
 // A table of 0, 0, 1 at 0.6, which is texel 1.3: 0.3. One bit leaves it the first and the last
@@ -155,7 +182,93 @@ TEST(StageBits, ATableByHand) {
     EXPECT_NEAR(red({}), 0.3F, 1e-6F);
     EXPECT_FLOAT_EQ(red({.table = 1}), 1.0F);
     EXPECT_FLOAT_EQ(red({.table = 2}), 1.0F / 3.0F);
-    EXPECT_NEAR(red({.textures = 1, .filter = 8}), 1.0F, 1e-6F);  // of tex0 alone
+    EXPECT_NEAR(red({.textures = 1, .filter = 8}), 1.0F, 1e-6F);   // of tex0 alone
+    EXPECT_THROW(red({.table = 2, .table_linear = true}), Error);  // of models only
+}
+
+TEST(TableGrid, CoordinatesOfKnownArguments) {
+    // The program's axis ends at x = 1/8.
+    const SpacedAxis lobe(TableSpacing::lobe, 0.0, 0.125), unit(TableSpacing::unit, 0.0, 0.125),
+        logarithm(TableSpacing::logarithm, 0.0, 0.125);
+    EXPECT_DOUBLE_EQ(lobe.coordinate(0.5), 0.5);
+    EXPECT_DOUBLE_EQ(unit.coordinate(0.5), 0.0625);
+    EXPECT_DOUBLE_EQ(unit.position(0.0625), 0.5);
+    EXPECT_DOUBLE_EQ(unit.position(0.5), 1.0) << "beyond the lobe";
+    EXPECT_DOUBLE_EQ(logarithm.coordinate(0.5), 12.0 / 16.0) << "x = 2^-4";
+    EXPECT_DOUBLE_EQ(logarithm.position(12.0 / 16.0), 0.5);
+    EXPECT_DOUBLE_EQ(logarithm.position(0.0), 0.0);
+    // Axes that do not begin at 0, as of exponents, stay as they are.
+    EXPECT_DOUBLE_EQ(SpacedAxis(TableSpacing::unit, 2.0, 100.0).coordinate(0.3), 0.3);
+}
+
+/// The lobe s^(N/2) alone, without cosines, in one channel.
+std::vector<double> reds(const Scene& scene, const StageBits& bits) {
+    const Framebuffer frame = render_with_bits(scene, bits, 1);
+    std::vector<double> values;
+    for (int y = 0; y < frame.height(); ++y)
+        for (int x = 0; x < frame.width(); ++x)
+            values.push_back(static_cast<double>(pixel(frame, x, y).r));
+    return values;
+}
+Scene bare_lobe(float exponent) {
+    Scene scene = lobe(Model::abp, 0.9F, exponent, "ideal");
+    Material material = *scene.objects.front().material;
+    material.model = Model::text;
+    material.model_text =
+        "X = t / alpha_x\nY = b / alpha_y\nmax(0, 1 - dot(h, X)^2 - dot(h, Y)^2)^(N / 2)";
+    scene.objects.front().material = std::make_shared<const Material>(material);
+    scene.lights.front().intensity = 1.0F;
+    return scene;
+}
+
+// N = 100: the lobe ends at 1 - s = 1 - 2^(-24/100) = 0.153, which is texel 9.7 of 63.
+TEST(TableGrid, EntriesOverTheWholeAxisAreFewInTheLobe) {
+    const Scene scene = bare_lobe(100.0F);
+    std::set<double> seen;
+    for (const double red :
+         reds(scene, {.table = 6, .table_values = 24, .table_axis = TableSpacing::unit})) {
+        double nearest = 1.0;
+        for (int k = 0; k < 64; ++k)
+            nearest = std::min(nearest, std::abs(red - std::pow(1.0 - k / 63.0, 50.0)));
+        EXPECT_LT(nearest, 3e-4);
+        seen.insert(std::round(red * 4096.0));
+    }
+    EXPECT_GE(seen.size(), 8U);
+    EXPECT_LE(seen.size(), 12U);  // with the background
+    // An index of as many steps gives the same picture, whatever the table.
+    const std::vector<double> coarse =
+        reds(scene, {.table_index = 6, .table_axis = TableSpacing::unit});
+    const std::vector<double> both = reds(scene, {.table = 6,
+                                                  .table_index = 6,
+                                                  .table_values = 24,
+                                                  .table_axis = TableSpacing::unit,
+                                                  .table_linear = true});
+    for (std::size_t i = 0; i < both.size(); ++i) EXPECT_NEAR(coarse[i], both[i], 1e-6);
+}
+
+// The chord of s^50 over the first step h at its middle, where it is furthest off.
+TEST(TableGrid, LinearTablesAreOffByTheirChords) {
+    const Scene scene = bare_lobe(100.0F);
+    const std::vector<double> exact = reds(scene, {});
+    const auto largest = [&](const StageBits& bits) {
+        const std::vector<double> got = reds(scene, bits);
+        double most = 0.0;
+        for (std::size_t i = 0; i < got.size(); ++i)
+            most = std::max(most, std::abs(got[i] - exact[i]));
+        return most;
+    };
+    const auto linear = [&](int table, TableSpacing axis) {
+        return largest(
+            {.table = table, .table_values = 24, .table_axis = axis, .table_linear = true});
+    };
+    const auto chord = [](double h) {
+        return 0.5 * (1.0 + std::pow(1.0 - h, 50.0)) - std::pow(1.0 - 0.5 * h, 50.0);
+    };
+    EXPECT_NEAR(linear(6, TableSpacing::unit), chord(1.0 / 63.0), 0.002);
+    EXPECT_NEAR(linear(8, TableSpacing::unit), chord(1.0 / 255.0), 0.0003);
+    EXPECT_NEAR(linear(6, TableSpacing::lobe), chord(0.159 / 63.0), 0.0003);
+    EXPECT_LT(linear(8, TableSpacing::logarithm), 0.001);
+    EXPECT_LT(largest({.table_axis = TableSpacing::logarithm, .table_linear = true}), 1e-6);
 }
 
 // Against the formula in double precision, on the same corners. X = t / alpha has at most
@@ -195,14 +308,17 @@ TEST(StageBits, ThoseOfAMachineExplainItsError) {
     Scene scene = measured_scene(parameters.material, "nv2a");
     scene.width = scene.height = 64;
     expose(scene);
-    Framebuffer drawn(scene.width, scene.height, PixelFormat::rgba32f);
-    Renderer({.threads = 1}).render(scene, drawn);
-    const Framebuffer exact = render_with_bits(scene, {}, 1);
-    const metrics::FrameErrors machine = metrics::interior_errors(drawn, exact);
-    const metrics::FrameErrors left =
-        metrics::interior_errors(render_with_bits(scene, kMachineBits, 1), drawn);
-    EXPECT_GT(machine.rmse, 0.005);
-    EXPECT_LT(left.rmse, 0.1 * machine.rmse);
+    for (const FilterOrder order : {FilterOrder::before, FilterOrder::after}) {
+        scene.machine.filter_order = order;
+        Framebuffer drawn(scene.width, scene.height, PixelFormat::rgba32f);
+        Renderer({.threads = 1}).render(scene, drawn);
+        const Framebuffer exact = render_with_bits(scene, {}, 1);
+        const metrics::FrameErrors machine = metrics::interior_errors(drawn, exact);
+        const metrics::FrameErrors left =
+            metrics::interior_errors(render_with_bits(scene, kMachineBits, 1), drawn);
+        EXPECT_GT(machine.rmse, 0.005);
+        EXPECT_LT(left.rmse, 0.1 * machine.rmse);
+    }
 }
 
 /// Slope of log2(RMSE) over 8 .. 12 bits.
@@ -272,11 +388,12 @@ TEST(StageBits, SayWhatTheyCannotDraw) {
     Scene scene = lobe(Model::abp_modified, 0.3F, 2.0F, "ideal");
     EXPECT_EQ(complaint(scene, {.table = 25}), "table of 25 bits, expected 1 .. 24 or exact");
     EXPECT_EQ(complaint(scene, {.combiners = 1}), "combiners of 1 bits, expected 2 .. 24 or exact");
+    const Scene program = textured_scene(make_texture({plain_image(1, 1, {9, 9, 9, 255})}, {}), 1,
+                                         1, everywhere({0.5F, 0.5F, 0.0F, 1.0F}));
+    EXPECT_EQ(complaint(program, {.table_linear = true}), "");  // it has no table
     scene.objects.front().raster.blend = Blend::alpha();
     EXPECT_NE(complaint(scene, {}).find("blended"), std::string::npos);
     scene.objects.front().raster.blend.reset();
-    scene.machine.filter_order = FilterOrder::after;
-    EXPECT_NE(complaint(scene, {}).find("expected before"), std::string::npos);
     scene.machine = machine_profile("double");
     EXPECT_NE(complaint(scene, {}).find("profile double"), std::string::npos);
 }

@@ -121,20 +121,32 @@ std::string light_members(const TracedFragment& f, const std::array<int, 4>& cod
         json_members(color));
 }
 
+std::string further_lights_json(const TracedFragment& f) {
+    return json_list(f.further_lights, [](const TracedFragment& light) {
+        return fmt::format("{{{}}}", light_members(light, light.light_codes, light.light_color));
+    });
+}
+
+std::string corner_json(const TracedFragment& f) {
+    const TracedCorner& corner = *f.corner;
+    return fmt::format(
+        "{{\"right\": {}, \"below\": {}, \"level\": {}, \"u\": {}, \"v\": {}, \"weights\": [{}, "
+        "{}], \"level_weight\": {}, {}, \"light_codes\": {}, \"further_lights\": {}}}",
+        json(corner.right), json(corner.below), corner.level, json(corner.u), json(corner.v),
+        json(corner.weight_x), json(corner.weight_y),
+        corner.level_weight ? json(*corner.level_weight) : "null",
+        light_members(f, f.codes, f.color), json_list(f.light_codes), further_lights_json(f));
+}
+
 std::string fragment_json(const TracedFragment& f) {
     return fmt::format(
         "{{\"object\": {}, \"material\": {}, \"triangle\": {}, \"clipped\": {}, \"vertices\": {}, "
         "\"barycentrics\": {}, \"depth\": {}, \"one_over_w\": {}, {}, \"light_codes\": {}, "
-        "\"further_lights\": {}, \"blend\": {}}}",
+        "\"further_lights\": {}, \"corners\": {}, \"blend\": {}}}",
         f.object, json_string(f.material), f.triangle, f.clipped, json_list(f.vertices),
         json_list(f.barycentrics), json(f.depth), json(f.one_over_w),
-        light_members(f, f.codes, f.color), json_list(f.light_codes),
-        json_list(f.further_lights,
-                  [](const TracedFragment& light) {
-                      return fmt::format(
-                          "{{{}}}", light_members(light, light.light_codes, light.light_color));
-                  }),
-        f.blend ? blend_json(*f.blend) : "null");
+        light_members(f, f.codes, f.color), json_list(f.light_codes), further_lights_json(f),
+        json_list(f.corners, corner_json), f.blend ? blend_json(*f.blend) : "null");
 }
 
 }  // namespace

@@ -174,9 +174,10 @@ std::string blend_text(const TracedBlend& b, PixelFormat format) {
     return text + fmt::format("  {:<20}{}\n", "result", channels(b.result));
 }
 
-/// What one light gives the fragment.
+/// What one light gives the fragment, or one of its corners, whose interpolants are the fragment's.
 std::string light_text(const TracedFragment& f, const TableWriter& table) {
-    std::string text = interpolant_text("interpolants", f.interpolants) + "\n";
+    std::string text;
+    if (!f.corner) text += interpolant_text("interpolants", f.interpolants) + "\n";
     for (const TracedUnit& unit : f.units) text += unit_text(unit);
     if (!f.units.empty()) text += "\n";
     for (const TracedFetch& fetch : f.fetches) text += fetch_text(fetch, table) + "\n";
@@ -185,18 +186,55 @@ std::string light_text(const TracedFragment& f, const TableWriter& table) {
            table.row("  color", f.light_codes, f.light_color, kAll);
 }
 
-std::string fragment_text(const TracedFragment& f, const TableWriter& table, PixelFormat format) {
+/// All lights, one after the other, and their sum.
+std::string lights_text(const TracedFragment& f, const TableWriter& table) {
     const std::size_t lights = f.further_lights.size() + 1;
     const auto heading = [&](std::size_t number) {
         return lights > 1 ? fmt::format("light {} of {}\n", number, lights) : std::string();
     };
-    std::string text = fmt::format("{}\n{}{}", triangle_text(f), heading(1), light_text(f, table));
+    std::string text = heading(1) + light_text(f, table);
     for (std::size_t i = 0; i < f.further_lights.size(); ++i)
         text += fmt::format("\n{}{}", heading(i + 2), light_text(f.further_lights[i], table));
     if (lights > 1) {
         text += fmt::format("\n{}{}", table.heading("all lights"),
                             table.row("  color", f.codes, f.color, kAll));
     }
+    return text;
+}
+
+std::string corner_name(const TracedCorner& corner) {
+    return fmt::format("{} {}", corner.below ? "lower" : "upper", corner.right ? "right" : "left");
+}
+
+/// What the filter after combining takes and gives.
+std::string filter_text(const TracedFragment& f, const TableWriter& table) {
+    const TracedCorner& place = *f.corners.front().corner;
+    std::string text = "filter of the corners\n" + number_text("right", place.weight_x) +
+                       number_text("lower", place.weight_y);
+    if (place.level_weight) text += number_text("upper level", *place.level_weight);
+    text += table.heading("");
+    for (const TracedFragment& each : f.corners) {
+        std::string name = "  " + corner_name(*each.corner);
+        if (place.level_weight) name += fmt::format(" {}", each.corner->level);
+        text += table.row(name, each.codes, each.color, kAll);
+    }
+    return text + table.row("  color", f.codes, f.color, kAll);
+}
+
+std::string corners_text(const TracedFragment& f, const TableWriter& table) {
+    std::string text = interpolant_text("interpolants", f.interpolants) + "\n";
+    for (const TracedFragment& each : f.corners) {
+        const TracedCorner& corner = *each.corner;
+        text += fmt::format("corner {}, level {}\n{}{}{}\n", corner_name(corner), corner.level,
+                            number_text("u", corner.u), number_text("v", corner.v),
+                            lights_text(each, table));
+    }
+    return text + filter_text(f, table);
+}
+
+std::string fragment_text(const TracedFragment& f, const TableWriter& table, PixelFormat format) {
+    std::string text = triangle_text(f) + "\n" +
+                       (f.corners.empty() ? lights_text(f, table) : corners_text(f, table));
     if (f.blend) text += fmt::format("\n{}", blend_text(*f.blend, format));
     return text;
 }

@@ -14,6 +14,7 @@ struct FileLibrary {
     void (*save_frame)(const Framebuffer&, const std::filesystem::path&,
                        std::string_view description);
     void (*save_image)(const Image8&, const std::filesystem::path&);
+    void (*draw_text)(Framebuffer&, int, int, std::string_view, int, const glm::vec4&);
     void (*save_text)(std::string_view, const std::filesystem::path&);
     void (*save_mesh)(const MeshData&, const std::filesystem::path&);
     LoadedScene (*load_scene)(const std::filesystem::path&, const std::vector<std::string>&);

@@ -68,6 +68,11 @@ void save_image(const Image8& image, const std::filesystem::path& path) {
     library().save_image(image, path);
 }
 
+void draw_text(Framebuffer& frame, int x, int y, std::string_view text, int size,
+               const glm::vec4& color) {
+    library().draw_text(frame, x, y, text, size, color);
+}
+
 void save_text(std::string_view text, const std::filesystem::path& path) {
     library().save_text(text, path);
 }

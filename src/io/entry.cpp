@@ -16,6 +16,7 @@ extern "C" const burnish::FileLibrary* burnish_file_library() {
         .load_frame = burnish::read_frame_file,
         .save_frame = burnish::write_frame_file,
         .save_image = burnish::write_image_file,
+        .draw_text = burnish::draw_text_into,
         .save_text = burnish::write_text_file,
         .save_mesh = burnish::write_mesh_file,
         .load_scene = burnish::read_scene_file,

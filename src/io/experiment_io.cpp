@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <burnish/error.hpp>
+#include <cmath>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,15 @@ constexpr std::array<std::pair<std::string_view, ExperimentMeasure>, 6> kMeasure
      {"argmin", ExperimentMeasure::argmin},
      {"argmax", ExperimentMeasure::argmax}}};
 
+constexpr std::array<std::pair<std::string_view, ExperimentPlotKind>, 5> kPlotKinds{
+    {{"curves", ExperimentPlotKind::curves},
+     {"pareto", ExperimentPlotKind::pareto},
+     {"codes", ExperimentPlotKind::codes},
+     {"polar", ExperimentPlotKind::polar},
+     {"waterfall", ExperimentPlotKind::waterfall}}};
+
 constexpr int kMostSamples = 1024;
+constexpr int kMostRepeats = 1000;
 
 int read_samples(const Section& section, int otherwise) {
     const int samples = section.integer("samples", 1, kMostSamples).value_or(otherwise);
@@ -68,13 +77,39 @@ ExperimentPan read_pan(const toml::table& table) {
 }
 
 ExperimentPlot read_plot(const toml::table& table, const Axes& axes) {
-    const Section section(table, "[[plots]]", {"title", "x", "y", "panels", "where", "log"});
+    const Section section(table, "[[plots]]",
+                          {"kind", "title", "x", "y", "panels", "where", "log", "pixel"});
     ExperimentPlot plot;
+    plot.kind =
+        section.choice<ExperimentPlotKind>("kind", kPlotKinds).value_or(ExperimentPlotKind::curves);
+    using enum ExperimentPlotKind;
+    const auto refuse_unless = [&](const char* key, bool has_it) {
+        if (section.has(key) && !has_it)
+            section.fail(key, fmt::format("'{}' in [[plots]] is not of this kind of plot", key));
+    };
+    const bool has_axes = plot.kind == curves || plot.kind == pareto;
+    refuse_unless("x", plot.kind == curves);
+    refuse_unless("y", has_axes);
+    refuse_unless("log", has_axes);
+    refuse_unless("panels", has_axes || plot.kind == polar);
+    refuse_unless("pixel", plot.kind == waterfall);
     plot.title = section.required_text("title");
-    plot.x = axes.required_axis(section, "x");
-    plot.y = section.required_text("y");
+    if (plot.kind == curves) plot.x = axes.required_axis(section, "x");
+    if (has_axes) plot.y = section.required_text("y");
     if (section.has("panels")) plot.panels = axes.required_axis(section, "panels");
     plot.where = axes.read_choice(section, "where");
+    if (plot.kind == waterfall) {
+        const auto pixel = section.numbers("pixel", 2, 2);
+        if (!pixel) section.fail("pixel", "[[plots]] of a waterfall needs 'pixel'");
+        for (std::size_t i = 0; i < 2; ++i) {
+            const float value = (*pixel)[i];
+            if (!(value >= 0.0F && value <= 16383.0F) || value != std::floor(value))
+                section.fail("pixel",
+                             "'pixel' in [[plots]], expected two whole numbers of a "
+                             "frame");
+            plot.pixel.at(i) = static_cast<int>(value);
+        }
+    }
     const std::vector<std::string> log = section.texts("log").value_or(std::vector<std::string>{});
     for (const std::string& axis : log) {
         if (axis != "x" && axis != "y")
@@ -131,7 +166,7 @@ Experiment interpret(const toml::table& table, const std::filesystem::path& path
     const Section root(
         table, "the experiment",
         {"schema", "title", "hypothesis", "scenes", "sweeps", "set", "test", "reference", "quick",
-         "expose", "pan", "metrics", "plots", "sheets", "expect"});
+         "expose", "pan", "repeats", "metrics", "plots", "sheets", "expect"});
     require_schema(root);
     Experiment experiment;
     experiment.name = path.stem().string();
@@ -143,6 +178,7 @@ Experiment interpret(const toml::table& table, const std::filesystem::path& path
     experiment.expose =
         root.number("expose", {.low = 0.0, .high = 1.0, .open_low = true}).value_or(0.0F);
     if (const toml::table* pan = root.table("pan")) experiment.pan = read_pan(*pan);
+    experiment.repeats = root.integer("repeats", 1, kMostRepeats).value_or(1);
     read_scenes(root, path.parent_path(), experiment);
     read_sweeps(root, experiment);
     const Axes axes(experiment.axes);

@@ -3,6 +3,8 @@
 #include "io/image_io.hpp"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
@@ -260,6 +262,17 @@ void write_frame_file(const Framebuffer& frame, const std::filesystem::path& pat
 
 void write_image_file(const Image8& image, const std::filesystem::path& path) {
     write_source(describe(image), path);
+}
+
+void draw_text_into(Framebuffer& frame, int x, int y, std::string_view text, int size,
+                    const glm::vec4& color) {
+    if (frame.format() != PixelFormat::rgba32f || size < 1)
+        throw Error(ErrorCode::bad_option, "text into a frame without floats, or of no size");
+    const Source source = describe(frame);
+    OIIO::ImageBuf buffer(source.spec, frame.pixels(), OIIO::AutoStride, source.pitch);
+    if (!OIIO::ImageBufAlgo::render_text(buffer, x, y, std::string(text), size, "DejaVuSans",
+                                         OIIO::cspan<float>(&color.x, 4)))
+        throw Error(ErrorCode::io, "the font DejaVu Sans: " + one_line(buffer.geterror()));
 }
 
 }  // namespace burnish

@@ -3,6 +3,7 @@
 #include <burnish/framebuffer.hpp>
 #include <burnish/texture.hpp>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
 
@@ -18,5 +19,7 @@ void write_frame_file(const Framebuffer& frame, const std::filesystem::path& pat
 /// The text that an image file carries; empty if there is none.
 std::string read_description(const std::filesystem::path& path);
 void write_image_file(const Image8& image, const std::filesystem::path& path);
+void draw_text_into(Framebuffer& frame, int x, int y, std::string_view text, int size,
+                    const glm::vec4& color);
 
 }  // namespace burnish

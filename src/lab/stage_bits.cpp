@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/multipass.hpp>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -35,6 +36,8 @@ void check(const StageBits& bits) {
     check_bits("combiners", bits.combiners, 2);
     for (const int b : bits.combiner_stages) check_bits("a combiner stage", b, 2);
     check_bits("table", bits.table, 1);
+    check_bits("table_index", bits.table_index, 1);
+    check_bits("table_values", bits.table_values, 1);
     check_bits("frame", bits.frame, 1);
 }
 
@@ -52,25 +55,53 @@ bool half_is_a_code(const Machine& machine) {
     return machine.numbers == NumberModel::wide;
 }
 
+/// Whether models' tables are to be looked up on a TableGrid.
+bool has_grid(const StageBits& bits) {
+    return bits.table_index != kExactBits || bits.table_values != kExactBits ||
+           bits.table_axis != TableSpacing::lobe || bits.table_linear;
+}
+
+/// What is drawn, and the tables of a model.
+struct FineProgram {
+    ProgramMaterial program;
+    std::vector<TableReport> tables;
+};
+
 /// An object in one light.
 struct LitDraw {
     Draw draw;
     CombinerProgram program;
     std::vector<bool> coded;
+    std::vector<TableGrid::Table> tables;
+    std::optional<TableGrid> grid;  ///< of the bits that are drawn with
 };
 
+std::vector<TableGrid::Table> tables_of(const Shading& shading,
+                                        const std::vector<TableReport>& reports) {
+    std::vector<TableGrid::Table> tables;
+    for (const TableReport& report : reports) {
+        TableGrid::Table& table = tables.emplace_back();
+        table.texels = shading.textures.at(static_cast<std::size_t>(report.unit))->texels();
+        for (std::size_t axis = 0; axis < report.axes.size(); ++axis) {
+            table.first.at(axis) = report.axes[axis].first;
+            table.last.at(axis) = report.axes[axis].last;
+        }
+    }
+    return tables;
+}
+
 /// Models with fine texels; programs and maps of the talk's model as they are.
-ProgramMaterial fine_program(const Object& object, const Scene& scene, std::size_t light,
-                             DerivedMaps& maps) {
+FineProgram fine_program(const Object& object, const Scene& scene, std::size_t light,
+                         DerivedMaps& maps) {
     const Material& material = object.material ? *object.material : Material{};
     const bool has_maps = material.model == Model::abp_modified && material.tangent_map;
     if (material.program || has_maps || !std::holds_alternative<Mesh>(object.geometry))
-        return program_of(object, scene, light, maps);
+        return {program_of(object, scene, light, maps), {}};
     const Light source = scene.lights.empty() ? Light{.intensity = 0.0F} : scene.lights[light];
-    return ModelCompiler(material)
-        .compile(scene.machine.for_programs(), source.color * source.intensity,
-                 light == 0 ? scene.ambient : glm::vec3(0.0F), TexelPrecision::fine)
-        .program;
+    CompiledModel model = ModelCompiler(material).compile(
+        scene.machine.for_programs(), source.color * source.intensity,
+        light == 0 ? scene.ambient : glm::vec3(0.0F), TexelPrecision::fine);
+    return {std::move(model.program), std::move(model.tables)};
 }
 
 /// The bits of each general stage.
@@ -118,12 +149,14 @@ struct BitRenderer::State {
         std::vector<std::unique_ptr<LitDraw>>& lit = draws.emplace_back();
         const std::size_t lights = std::max<std::size_t>(scene.lights.size(), 1);
         for (std::size_t light = 0; light < lights; ++light) {
-            const ProgramMaterial program = fine_program(object, scene, light, maps);
+            const FineProgram fine = fine_program(object, scene, light, maps);
+            const ProgramMaterial& program = fine.program;
             LitDraw& in = *lit.emplace_back(std::make_unique<LitDraw>());
             prepare_draw(in.draw, view, object, {&program, 1}, light, {.everything = true});
             transform_draw(in.draw, view, object, table_reference(), pool);
             in.program = program.combiners;
             in.coded = coded_planes(in.draw.shading, in.program);
+            in.tables = tables_of(in.draw.shading, fine.tables);
         }
         const Draw& first = lit.front()->draw;
         if (first.ordered || first.shading.quads)
@@ -133,6 +166,25 @@ struct BitRenderer::State {
                                     first.ordered ? "what is blended or dropped after shading"
                                                   : "a filter that looks at neighbours"));
         rules.push_back(first.depth);
+    }
+
+    /// Before shading with `bits`.
+    void make_grids(const StageBits& bits) {
+        for (const auto& lights : draws) {
+            for (const auto& lit : lights) {
+                lit->grid.reset();
+                if (!has_grid(bits)) continue;
+                if (lit->tables.empty() && !lit->draw.shading.stage_fetches.empty())
+                    throw Error(ErrorCode::bad_option,
+                                "table_index, table_values, table_axis or table_filter with a "
+                                "material's own program, expected a model");
+                lit->grid = TableGrid{.spacing = bits.table_axis,
+                                      .linear = bits.table_linear,
+                                      .index = bits.table_index,
+                                      .values = bits.table_values,
+                                      .tables = lit->tables};
+            }
+        }
     }
 
     /// Calls take(triangle, x, y) for every visible fragment of tile (x, y).
@@ -158,28 +210,97 @@ struct BitRenderer::State {
 
     [[nodiscard]] glm::dvec3 shade(const StageBits& bits, const SetupTriangle& triangle, int x,
                                    int y) const {
-        glm::dvec3 sum(0.0);
+        const Shading& first = draws[triangle.draw].front()->draw.shading;
+        if (!first.corners) return in_all_lights(bits, triangle, x, y, nullptr).color;
+        TexelCornerCtx corner = first.corners->corner;
+        const Filtered lower = at_corners(bits, triangle, x, y, corner);
+        if (!first.corners->blends_levels() || lower.level_weight == 0.0) return lower.color;
+        corner.choice = LevelChoice::ceiling;
+        const Filtered upper = at_corners(bits, triangle, x, y, corner);
+        Quantiser quantiser(bits.rounding);
+        quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                        kFilterStream);
+        return lerp(bits, lower.color, upper.color, lower.level_weight, quantiser);
+    }
+
+    /// A colour, and where the sample point lies between texels and levels.
+    struct Filtered {
+        glm::dvec3 color{0.0};
+        std::array<double, 2> weights{};
+        double level_weight = 0.0;
+    };
+    static constexpr std::uint32_t kFilterStream = kMaxLights;  ///< no light has it
+
+    /// One lerp of the filter after combining.
+    static glm::dvec3 lerp(const StageBits& bits, const glm::dvec3& a, const glm::dvec3& b,
+                           double weight, Quantiser& quantiser) {
+        const double one = std::ldexp(1.0, bits.filter);
+        const double w = bits.filter == kExactBits ? weight : std::floor(weight * one) / one;
+        glm::dvec3 result;
+        for (int c = 0; c < 3; ++c)
+            result[c] = quantiser.unsigned_number(a[c] + (b[c] - a[c]) * w, bits.filter);
+        return result;
+    }
+
+    [[nodiscard]] Filtered at_corners(const StageBits& bits, const SetupTriangle& triangle, int x,
+                                      int y, TexelCornerCtx corner) const {
+        std::array<Filtered, FilterCtx::kCorners> at;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            corner.right = static_cast<std::uint8_t>(k & 1);
+            corner.below = static_cast<std::uint8_t>(k >> 1);
+            at[k] = in_all_lights(bits, triangle, x, y, &corner);
+        }
+        Quantiser quantiser(bits.rounding);
+        quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                        kFilterStream + 1);
+        const auto [right, below] = at[0].weights;
+        const glm::dvec3 top = lerp(bits, at[0].color, at[1].color, right, quantiser);
+        const glm::dvec3 bottom = lerp(bits, at[2].color, at[3].color, right, quantiser);
+        return {lerp(bits, top, bottom, below, quantiser), at[0].weights, at[0].level_weight};
+    }
+
+    /// @param corner  null: at the pixel's own coordinates
+    [[nodiscard]] Filtered in_all_lights(const StageBits& bits, const SetupTriangle& triangle,
+                                         int x, int y, const TexelCornerCtx* corner) const {
+        Filtered sum;
         for (std::size_t light = 0; light < draws[triangle.draw].size(); ++light) {
             Quantiser quantiser(bits.rounding);
             quantiser.begin(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                             static_cast<std::uint32_t>(light));
-            sum += shade(bits, *draws[triangle.draw][light], triangle, x, y, quantiser);
+            const Filtered one =
+                shade(bits, *draws[triangle.draw][light], triangle, x, y, corner, quantiser);
+            sum = {sum.color + one.color, one.weights, one.level_weight};
         }
-        return glm::min(sum, 1.0);
+        sum.color = glm::min(sum.color, 1.0);
+        return sum;
     }
 
     /// In one light.
-    [[nodiscard]] glm::dvec3 shade(const StageBits& bits, const LitDraw& lit,
-                                   const SetupTriangle& triangle, int x, int y,
-                                   Quantiser& quantiser) const {
+    [[nodiscard]] Filtered shade(const StageBits& bits, const LitDraw& lit,
+                                 const SetupTriangle& triangle, int x, int y,
+                                 const TexelCornerCtx* corner, Quantiser& quantiser) const {
         const Shading& shading = lit.draw.shading;
         const InputRounding rounding{.quantiser = &quantiser,
                                      .coded = half_is_a_code(scene.machine) ? &lit.coded : nullptr,
                                      .vectors = bits.half_vector,
                                      .texels = bits.textures,
                                      .filter = bits.filter,
-                                     .table = bits.table};
+                                     .table = bits.table,
+                                     .grid = lit.grid ? &*lit.grid : nullptr};
         ExactInputs inputs(shading, lit.draw.mesh(), triangle, x, y, rounding);
+        Filtered result;
+        if (corner != nullptr) {
+            // The plane of each light's program has its own place.
+            TexelCornerCtx own = shading.corners->corner;
+            own.right = corner->right;
+            own.below = corner->below;
+            own.choice = corner->choice;
+            for (const InputOp& op : shading.corners->level) inputs.feed(op);
+            inputs.stand_at(own);
+            result.weights = inputs.corner_weights();
+            const double lod = own.lambda < 0 ? 0.0 : inputs.plane(own.lambda);
+            result.level_weight = lod - std::floor(lod);
+        }
         inputs.feed_all(shading.inputs);
         std::size_t next = 0;
         const FetchReals fetch = [&](const StageFetch& f, const std::array<double, 3>& at) {
@@ -190,7 +311,8 @@ struct BitRenderer::State {
         const std::vector<int> stages = stage_bits(bits, lit.program.stages.size());
         const Reals color = run_combiners_exactly(lit.program, scene.machine, inputs.registers(),
                                                   nullptr, fetch, {&quantiser, stages, bits.frame});
-        return {color[0], color[1], color[2]};
+        result.color = {color[0], color[1], color[2]};
+        return result;
     }
 
     const Scene& scene;
@@ -210,10 +332,6 @@ BitRenderer::BitRenderer(const Scene& scene, int threads) {
         throw Error(ErrorCode::bad_option,
                     "chosen bits with profile double, which has no stages; expected one of the "
                     "machines");
-    if (scene.machine.filter_order == FilterOrder::after)
-        throw Error(ErrorCode::bad_option,
-                    "chosen bits with filter_order = after, expected before: stages that run at "
-                    "four texels have no bits of their own");
     m_state = std::make_unique<State>(scene, threads);
 }
 BitRenderer::~BitRenderer() = default;
@@ -221,6 +339,7 @@ BitRenderer::~BitRenderer() = default;
 Framebuffer BitRenderer::render(const StageBits& bits) {
     check(bits);
     State& s = *m_state;
+    s.make_grids(bits);
     Framebuffer target(s.size.width, s.size.height, PixelFormat::rgba32f);
     fill(target, s.scene.background);
     const std::int32_t columns = (s.size.width + kTileSize - 1) / kTileSize,
@@ -242,6 +361,7 @@ Framebuffer BitRenderer::render(const StageBits& bits) {
 std::optional<glm::dvec3> BitRenderer::pixel(const StageBits& bits, int x, int y) {
     check(bits);
     State& s = *m_state;
+    s.make_grids(bits);
     std::optional<glm::dvec3> color;
     s.for_each_fragment(x / kTileSize, y / kTileSize, s.visibility.front(),
                         [&](const SetupTriangle& triangle, int at_x, int at_y) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/quantiser.hpp"
+#include "trace/table_grid.hpp"
 
 /// A picture whose numbers are exact but at chosen stages: which of them costs how much.
 namespace burnish::lab {
@@ -25,13 +26,19 @@ struct StageBits {
     /// Vectors, cosines and colours that the interpolators bring to registers, coded.
     int half_vector = kExactBits;
     int textures = kExactBits;  ///< texels of the material layer
-    int filter = kExactBits;    ///< each lerp between texels; b bits of its weight, downwards
+    /// Each lerp between texels, or with FilterOrder::after between the colours at texels; b bits
+    /// of its weight, downwards.
+    int filter = kExactBits;
     /// Products and outputs of general stages, and their constants: a sign and b - 1 bits.
     int combiners = kExactBits;
     /// General stages one by one, instead of `combiners`; those beyond the end have that.
     std::vector<int> combiner_stages = {};
     /// Dependent tables: 2^b texels along every axis, none between them, of b bits.
     int table = kExactBits;
+    /// The same of models' tables in more detail (trace/table_grid.hpp).
+    int table_index = kExactBits, table_values = kExactBits;
+    TableSpacing table_axis = TableSpacing::lobe;
+    bool table_linear = false;
     int frame = kExactBits;  ///< the final combiner: its product, its lerp and what it delivers
     BitRounding rounding = BitRounding::nearest;
 };
@@ -45,8 +52,8 @@ class BitRenderer {
     /// @param scene    outlives this object
     /// @param threads  0: one per core; pictures have the same bits with any number
     /// Throws Error{bad_program} for blended draws, fragments that may be dropped after shading and
-    /// mip levels and sums at computed coordinates, Error{bad_option} for profile double, for a filter after
-    /// combining, and what Renderer::render throws.
+    /// mip levels and sums at computed coordinates, Error{bad_option} for profile double, and what
+    /// Renderer::render throws.
     explicit BitRenderer(const Scene& scene, int threads = 0);
     ~BitRenderer();
     BitRenderer(const BitRenderer&) = delete;
@@ -54,7 +61,7 @@ class BitRenderer {
 
     /// rgba32f, alpha 1 where there is a surface, else the scene's background; one sample at the
     /// centre of each pixel. Throws Error{bad_option} for bits outside 1 .. 24, of combiners 2
-    /// .. 24.
+    /// .. 24, and for details of tables where a material has a program of its own.
     Framebuffer render(const StageBits& bits);
     /// Red, green and blue of pixel (x, y) of the frame; nothing where it shows the background.
     std::optional<glm::dvec3> pixel(const StageBits& bits, int x, int y);

@@ -20,13 +20,17 @@ struct NamedStage {
     std::string_view name;
     int StageBits::*field;
 };
-constexpr std::array<NamedStage, 6> kStages{{{"half_vector", &StageBits::half_vector},
+constexpr std::array<NamedStage, 8> kStages{{{"half_vector", &StageBits::half_vector},
                                              {"textures", &StageBits::textures},
                                              {"filter", &StageBits::filter},
                                              {"combiners", &StageBits::combiners},
                                              {"table", &StageBits::table},
+                                             {"table_index", &StageBits::table_index},
+                                             {"table_values", &StageBits::table_values},
                                              {"frame", &StageBits::frame}}};
 constexpr std::array<std::string_view, 4> kRoundings{"nearest", "truncate", "shift8", "stochastic"};
+constexpr std::array<std::string_view, 3> kAxes{"lobe", "unit", "log"};
+constexpr std::array<std::string_view, 2> kFilters{"nearest", "linear"};
 constexpr std::size_t kMostStages = 16;
 
 [[noreturn]] void fail(const std::string& what) {
@@ -47,18 +51,29 @@ int parse_bits(std::string_view key, std::string_view text, int fewest) {
     fail(fmt::format("bits of {}: '{}', expected {} .. {} or exact", key, text, fewest, kMostBits));
 }
 
-BitRounding parse_rounding(std::string_view text) {
-    const auto at = std::find(kRoundings.begin(), kRoundings.end(), text);
-    if (at == kRoundings.end())
-        fail(fmt::format("rounding '{}', expected one of {}", text, fmt::join(kRoundings, ", ")));
-    return static_cast<BitRounding>(at - kRoundings.begin());
+/// Which of `names` it is.
+template <std::size_t Count>
+std::size_t parse_name(std::string_view key, std::string_view text,
+                       const std::array<std::string_view, Count>& names) {
+    const auto at = std::find(names.begin(), names.end(), text);
+    if (at == names.end())
+        fail(fmt::format("{} '{}', expected one of {}", key, text, fmt::join(names, ", ")));
+    return static_cast<std::size_t>(at - names.begin());
 }
 
 }  // namespace
 
 void set_stage_bits(StageBits& bits, std::string_view key, std::string_view value) {
     if (key == "rounding") {
-        bits.rounding = parse_rounding(value);
+        bits.rounding = static_cast<BitRounding>(parse_name(key, value, kRoundings));
+        return;
+    }
+    if (key == "table_axis") {
+        bits.table_axis = static_cast<TableSpacing>(parse_name(key, value, kAxes));
+        return;
+    }
+    if (key == "table_filter") {
+        bits.table_linear = parse_name(key, value, kFilters) == 1;
         return;
     }
     for (const NamedStage& stage : kStages) {
@@ -73,15 +88,16 @@ void set_stage_bits(StageBits& bits, std::string_view key, std::string_view valu
         key.starts_with(kOne) ? whole_number(key.substr(kOne.size())) : std::nullopt;
     if (!number || *number < 0 || *number >= static_cast<int>(kMostStages)) {
         std::string listed;
-        std::vector<std::string_view> names{"rounding"};
+        std::vector<std::string_view> names{"rounding", "table_axis", "table_filter"};
         for (const NamedStage& stage : kStages) {
             listed += fmt::format("{}, ", stage.name);
             names.push_back(stage.name);
         }
         const std::string_view near = nearest_name(key, names);
-        fail(fmt::format("bits of '{}', expected {}stage0 .. stage{} or rounding{}", key, listed,
-                         kMostStages - 1,
-                         near.empty() ? "" : fmt::format(", did you mean '{}'?", near)));
+        fail(fmt::format(
+            "bits of '{}', expected {}stage0 .. stage{}, table_axis, table_filter or rounding{}", key,
+            listed, kMostStages - 1,
+            near.empty() ? "" : fmt::format(", did you mean '{}'?", near)));
     }
     const auto at = static_cast<std::size_t>(*number);
     while (bits.combiner_stages.size() <= at) bits.combiner_stages.push_back(bits.combiners);

@@ -8,7 +8,7 @@
 namespace burnish::shapes {
 
 std::vector<std::string_view> names() {
-    return {"sphere", "knot", "plane", "cube"};
+    return {"sphere", "knot", "plane", "cube", "ribbon"};
 }
 
 MeshData named(std::string_view name, int columns, int rows) {
@@ -16,6 +16,7 @@ MeshData named(std::string_view name, int columns, int rows) {
     if (name == "knot") return torus_knot(columns, rows);
     if (name == "plane") return plane(columns, rows);
     if (name == "cube") return cube();
+    if (name == "ribbon") return ribbon(columns, rows);
     throw Error(ErrorCode::bad_option,
                 fmt::format("unknown shape '{}', {}", name, expected_one_of(name, names())));
 }

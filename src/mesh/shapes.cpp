@@ -204,6 +204,29 @@ MeshData plane(int columns, int rows) {
     return mesh;
 }
 
+MeshData ribbon(int columns, int rows) {
+    check_count("columns", columns, 1);
+    check_count("rows", rows, 1);
+    check_triangles(columns, rows);
+    constexpr double kHeight = 0.15, kWaves = 1.5;
+    MeshData mesh;
+    for (int y = 0; y <= rows; ++y) {
+        for (int x = 0; x <= columns; ++x) {
+            const double u = static_cast<double>(x) / columns;
+            const double v = static_cast<double>(y) / rows;
+            const double phase = kTurn * kWaves * u;
+            const double rise = kHeight * kTurn * kWaves * dmath::cos(phase);
+            add_vertex(mesh,
+                       {{0.25 - 0.5 * v, 2.0 * u - 1.0, kHeight * dmath::sin(phase)},
+                        {0.0, -rise, 2.0},
+                        {0.0, 2.0, rise}},
+                       u, v);
+        }
+    }
+    add_grid(mesh, 0, columns, rows);
+    return mesh;
+}
+
 MeshData cube() {
     struct Side {
         glm::dvec3 normal;

@@ -47,8 +47,13 @@ std::optional<TexelGrid> shaded_texels(const Material& material, FilterOrder ord
                                        TexelSteps steps) {
     if (order == FilterOrder::before) return std::nullopt;
     const TexelSource source(material);
-    if (!source.varies()) return std::nullopt;
-    return TexelGrid{source.width(), source.height(), source.sampler(), steps};
+    const bool is_filtered =
+        is_linear_within(source.sampler().filter) || source.sampler().mag_is_linear();
+    if (!source.varies() || !is_filtered) return std::nullopt;
+    TexelGrid grid{{}, source.sampler(), source.max_anisotropy(), steps};
+    for (int level = 0; level < source.levels(); ++level)
+        grid.sizes.emplace_back(source.width(level), source.height(level));
+    return grid;
 }
 
 DoubleObject double_object(const Object& object, FilterOrder order,

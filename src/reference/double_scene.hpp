@@ -36,8 +36,8 @@ struct DoubleObject {
     Model model;
     std::shared_ptr<const SurfaceSampler> surface;  ///< null for Model::text
     std::shared_ptr<const TextModel> text;          ///< of Model::text
-    std::optional<TexelGrid> shaded_texels;  ///< FilterOrder::after: where it is shaded; nothing:
-                                             ///< at the sample
+    std::optional<TexelGrid> shaded_texels;  ///< FilterOrder::after, of a map that is filtered
+                                             ///< within a level: where; nothing: at the sample
     DepthTest depth_test;
     bool depth_write;
     Cull cull;

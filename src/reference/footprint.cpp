@@ -53,8 +53,7 @@ Footprint footprint(const glm::dvec2& uv, int width, int height, const Sampler& 
 }
 
 std::array<WeightedPoint, 4> texel_centres(const glm::dvec2& uv, int width, int height,
-                                           const Sampler& sampler) {
-    const bool linear = sampler.mag_is_linear();
+                                           bool linear) {
     const glm::dvec2 size(width, height);
     const glm::dvec2 place = glm::dvec2(in_texels(uv.x, width), in_texels(uv.y, height)) -
                              glm::dvec2(linear ? 0.5 : 0.0);

@@ -38,6 +38,6 @@ struct WeightedPoint {
 /// The centres of the texels that footprint() weights, wherever wrapping puts them: what a filter
 /// after shading looks at. Of a nearest texel it is the centre four times, the first with weight 1.
 std::array<WeightedPoint, 4> texel_centres(const glm::dvec2& uv, int width, int height,
-                                           const Sampler& sampler);
+                                           bool linear);
 
 }  // namespace burnish::reference

@@ -67,11 +67,16 @@ class ObjectShader {
         const CoordinateSteps steps{step(weights.across), step(weights.down)};
         const Seen seen{point, weights, steps};
         if (!m_object.shaded_texels) return shaded(place, seen, uv);
-        const TexelGrid& grid = *m_object.shaded_texels;
+        const LevelsSeen levels = m_object.shaded_texels->levels(steps);
         glm::dvec3 mean(0.0);
-        for (const WeightedPoint& texel :
-             texel_centres(grid.coordinate(uv), grid.width, grid.height, grid.sampler))
-            if (texel.weight > 0.0) mean += shaded(place, seen, texel.uv) * texel.weight;
+        for (int i = 0; i < levels.probes; ++i) {
+            const glm::dvec2 at = uv + levels.apart * (i - 0.5 * (levels.probes - 1));
+            mean += mean_of_texels(place, seen, at, levels.first, levels.linear) *
+                    ((1.0 - levels.weight) / levels.probes);
+            if (levels.weight > 0.0)
+                mean += mean_of_texels(place, seen, at, levels.second, levels.linear) *
+                        (levels.weight / levels.probes);
+        }
         return mean;
     }
 
@@ -104,6 +109,19 @@ class ObjectShader {
         const SampleWeights& weights;
         CoordinateSteps steps;
     };
+
+    /// Of a level's texels around `uv`, each lit at `place`.
+    [[nodiscard]] glm::dvec3 mean_of_texels(const Place& place, const Seen& seen,
+                                            const glm::dvec2& uv, int level, bool linear) const {
+        const TexelGrid& grid = *m_object.shaded_texels;
+        const glm::ivec2& size = grid.sizes[static_cast<std::size_t>(level)];
+        const Seen alone{seen.point, seen.weights, grid.steps_of(level)};
+        glm::dvec3 mean(0.0);
+        for (const WeightedPoint& texel :
+             texel_centres(grid.coordinate(uv, level), size.x, size.y, linear))
+            if (texel.weight > 0.0) mean += shaded(place, alone, texel.uv) * texel.weight;
+        return mean;
+    }
 
     /// Of what stands at `uv` in the maps, lit at `place`.
     [[nodiscard]] glm::dvec3 shaded(const Place& place, const Seen& seen,

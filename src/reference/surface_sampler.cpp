@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "reference/footprint.hpp"
@@ -209,8 +210,22 @@ glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv,
     return quantity.components == 1 ? glm::dvec3(value.x) : value;
 }
 
-glm::dvec2 TexelGrid::coordinate(const glm::dvec2& uv) const {
-    return in_steps(steps, width, height, uv);
+LevelsSeen TexelGrid::levels(const CoordinateSteps& seen) const {
+    const bool has_levels = sizes.size() > 1;
+    return levels_seen(has_levels ? seen : CoordinateSteps{}, sizes[0].x, sizes[0].y,
+                       static_cast<int>(sizes.size()), sampler, max_anisotropy);
+}
+
+glm::dvec2 TexelGrid::coordinate(const glm::dvec2& uv, int level) const {
+    const glm::ivec2& size = sizes[static_cast<std::size_t>(level)];
+    return in_steps(steps, size.x, size.y, uv);
+}
+
+CoordinateSteps TexelGrid::steps_of(int level) const {
+    if (level == 0) return {};
+    const glm::dvec2 step =
+        std::exp2(level - static_cast<double>(sampler.lod_bias)) / glm::dvec2(sizes[0]);
+    return {{step.x, 0.0}, {0.0, step.y}};
 }
 
 std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {

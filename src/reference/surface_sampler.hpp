@@ -26,11 +26,15 @@ enum class TexelSteps { exact, machine };
 
 /// The texels of a material's finest map, at which a filter after shading shades.
 struct TexelGrid {
-    int width, height;
+    std::vector<glm::ivec2> sizes;  ///< of its levels, in texels
     Sampler sampler;
+    int max_anisotropy;
     TexelSteps steps;  ///< of the coordinates that weights come from
 
-    [[nodiscard]] glm::dvec2 coordinate(const glm::dvec2& uv) const;
+    [[nodiscard]] LevelsSeen levels(const CoordinateSteps& seen) const;
+    [[nodiscard]] glm::dvec2 coordinate(const glm::dvec2& uv, int level) const;
+    /// Steps with which level `level` and no other is seen.
+    [[nodiscard]] CoordinateSteps steps_of(int level) const;
 };
 
 /// A material at any point of its maps. Either kind filters quantities, not the maps they come

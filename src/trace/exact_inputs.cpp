@@ -17,6 +17,13 @@ double clamp_to_one(double x) {
     return x > 0.0 ? std::min(x, 1.0) : 0.0;
 }
 
+/// Whether an attribute comes of texels or light, and is not where a corner, a face or a probe
+/// stands.
+bool is_computed(int attribute) {
+    const bool of_sample = attribute >= kSampleScratch && attribute < kUnitAttributes;
+    return attribute >= kMaxInterpolated && attribute != kCornerAttributes && !of_sample;
+}
+
 double mix(double a, double b, double weight) {
     return a + (b - a) * weight;
 }
@@ -347,7 +354,8 @@ void ExactInputs::locate(const AddressCtx& ctx) {
     m_u = attribute(ctx.u) / q;
     m_v = attribute(ctx.v) / q;
     m_level = m_layer = 0;
-    m_is_table = ctx.u >= kMaxInterpolated;
+    m_is_table = is_computed(ctx.u);
+    m_is_texel = ctx.u == kCornerAttributes && is_texel(ctx.width, ctx.height);
     const bool linear = ctx.linear != 0, rectangle = ctx.rectangle != 0;
     m_column = table_position(m_u, ctx.width, ctx.mode_s, linear, rectangle);
     m_row = table_position(m_v, ctx.height, ctx.mode_t, linear, rectangle);
@@ -361,12 +369,13 @@ void ExactInputs::locate(const LevelAddressCtx& ctx) {
     const double lod = ctx.lambda < 0 ? 0.0 : plane(ctx.lambda);
     const bool linear = (lod > 0.0 ? ctx.min_linear : ctx.mag_linear) != 0;
     const bool nearest = ctx.choice == LevelChoice::nearest;
-    m_level = chosen_level(
-        ctx, static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
+    m_level =
+        chosen_level(ctx.choice, ctx.level_count,
+                     static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
     const LevelAddressCtx::Level& level = ctx.levels[m_level];
     const bool rectangle = ctx.rectangle != 0;
-    const bool of_sample = ctx.u >= kSampleScratch && ctx.u < kUnitAttributes;  // a face, a probe
-    m_is_table = ctx.u >= kMaxInterpolated && !of_sample;
+    m_is_table = is_computed(ctx.u);
+    m_is_texel = ctx.u == kCornerAttributes && is_texel(level.width, level.height);
     m_column = table_position(m_u, level.width, ctx.mode_s, linear, rectangle);
     m_row = table_position(m_v, level.height, ctx.mode_t, linear, rectangle);
     m_layer = ctx.face < 0 ? 0 : static_cast<int>(plane(ctx.face));
@@ -376,6 +385,51 @@ void ExactInputs::locate(const LevelAddressCtx& ctx) {
     if (ctx.slice_weight >= 0) {
         m_planes[static_cast<std::size_t>(ctx.slice_weight)] = slice.weight;
     }
+}
+
+namespace {
+
+struct CornerPlace {
+    double coordinate, weight;
+};
+
+/// TexelCornerCtx along one axis, without rounding.
+CornerPlace corner_place(double u, double size, double scale, AddressMode mode, bool linear,
+                         bool second) {
+    constexpr double kHair = 0x1p-30;
+    const bool mirrored = mode == AddressMode::mirrored_repeat;
+    const double whole = mode == AddressMode::repeat ? std::floor(u)
+                         : mirrored                  ? 2.0 * std::floor(u * 0.5)
+                                                     : 0.0;
+    const double f = u - whole;
+    const double g = mirrored && f > 1.0 ? 2.0 - f : f;
+    const double x = g * size / scale - (linear ? 0.5 : 0.0), left = std::floor(x);
+    const double c = (left + (second ? 1.5 : 0.5) + kHair) * scale / size;
+    return {whole + (mirrored && f > 1.0 ? 2.0 - c : c), linear ? x - left : 0.0};
+}
+
+}  // namespace
+
+void ExactInputs::stand_at(const TexelCornerCtx& corner) {
+    const double q = corner.q < 0 ? 1.0 : attribute(corner.q);
+    const double lod = corner.lambda < 0 ? 0.0 : plane(corner.lambda);
+    const bool linear = (lod > 0.0 ? corner.min_linear : corner.mag_linear) != 0;
+    const bool nearest = corner.choice == LevelChoice::nearest;
+    const int level =
+        chosen_level(corner.choice, corner.level_count,
+                     static_cast<int>(nearest ? std::ceil(256.0 * lod) : std::floor(256.0 * lod)));
+    const LevelAddressCtx::Level& of = corner.levels[level];
+    const auto place = [&](int coordinate, int size, AddressMode mode, bool second) {
+        return corner_place(attribute(coordinate) / q, size, corner.rectangle != 0 ? size : 1.0,
+                            mode, linear, second);
+    };
+    const CornerPlace s = place(corner.u, of.width, corner.mode_s, corner.right != 0);
+    const CornerPlace t = place(corner.v, of.height, corner.mode_t, corner.below != 0);
+    set_attribute(corner.to, s.coordinate);
+    set_attribute(corner.to + 1, t.coordinate);
+    m_corner_weights = {s.weight, t.weight};
+    m_corner_size = {of.width, of.height};
+    if (corner.level >= 0) m_planes[static_cast<std::size_t>(corner.level)] = level;
 }
 
 namespace {
@@ -504,14 +558,14 @@ void ExactInputs::fetch(const Texture& texture, int plane, int channels) {
                            to, is_signed, m_is_table ? kExactBits : m_rounding.texels);
         };
         const auto lerp = [&](double a, double b, double weight) {
-            if (m_is_table) return mix(a, b, weight);
+            if (m_is_table || m_is_texel) return mix(a, b, weight);
             return rounded(mix(a, b, cut(weight)), to, is_signed, m_rounding.filter);
         };
         const double upper = lerp(texel(0, 0), texel(1, 0), m_column.weight);
         const double lower = lerp(texel(0, 1), texel(1, 1), m_column.weight);
         const double value = lerp(upper, lower, m_row.weight);
         m_planes[static_cast<std::size_t>(to)] =
-            rounded(value, to, is_signed, m_is_table ? m_rounding.table : kExactBits);
+            rounded(value, to, is_signed, m_is_table ? table_values() : kExactBits);
     }
     m_rounding = kept;
 }
@@ -579,13 +633,73 @@ ExactInputs::Position ExactInputs::position_along(const LookUpTableCtx::Axis& ax
                           false);
 }
 
+int ExactInputs::table_values() const {
+    const bool given = m_rounding.grid != nullptr && m_rounding.grid->values != kExactBits;
+    return given ? m_rounding.grid->values : m_rounding.table;
+}
+
+ExactInputs::GridPlace ExactInputs::grid_place(const LookUpTableCtx& ctx, std::size_t axis,
+                                               double at) {
+    const LookUpTableCtx::Axis& of = axis == 0 ? ctx.s : ctx.t;
+    if (of.plane < 0) return {};
+    const TableGrid& grid = *m_rounding.grid;
+    const auto table = std::find_if(grid.tables.begin(), grid.tables.end(),
+                                    [&](const auto& each) { return each.texels == ctx.texels; });
+    const SpacedAxis spaced(grid.spacing, table->first.at(axis), table->last.at(axis));
+    const Position exact =
+        position(table_coordinate(of, at), of.size, AddressMode::clamp_to_edge, true, false);
+    const double last = of.size - 1;
+    const auto place = [&](double coordinate) {
+        const double x = last * spaced.position(coordinate);
+        const double left = std::clamp(std::floor(x), 0.0, std::max(last - 1.0, 0.0));
+        return Position{static_cast<int>(left), x - left};
+    };
+    if (of.size < 2) return {exact, exact, 0.0};
+    double coordinate =
+        spaced.coordinate(std::clamp((exact.texel + exact.weight) / last, 0.0, 1.0));
+    Quantiser& quantiser = *m_rounding.quantiser;
+    coordinate = quantiser.unsigned_number(coordinate, grid.index);
+    if (m_rounding.table == kExactBits || !grid.linear) {
+        const Position only = place(quantiser.unsigned_number(coordinate, m_rounding.table));
+        return {only, only, 0.0};
+    }
+    const double steps = std::ldexp(1.0, m_rounding.table) - 1.0;
+    const double below = std::min(std::floor(coordinate * steps), steps - 1.0);
+    return {place(below / steps), place((below + 1.0) / steps), coordinate * steps - below};
+}
+
 void ExactInputs::look_up(const LookUpTableCtx& ctx, double s, double t) {
     m_is_table = true;
+    m_is_texel = false;
     m_level = m_layer = 0;
-    m_column = position_along(ctx.s, s);
-    m_row = position_along(ctx.t, t);
+    const Texture& texture = texture_at(m_shading, ctx.texels);
+    const auto fetch_all = [&](const auto& use) {
+        for (const int out : ctx.out) {
+            if (out < 0) continue;
+            fetch(texture, out, 1);
+            use(m_planes[static_cast<std::size_t>(out)]);
+        }
+    };
+    if (m_rounding.grid == nullptr || m_rounding.quantiser == nullptr) {
+        m_column = position_along(ctx.s, s);
+        m_row = position_along(ctx.t, t);
+        fetch_all([](double&) {});
+        return;
+    }
+    const GridPlace column = grid_place(ctx, 0, s), row = grid_place(ctx, 1, t);
+    // Every channel has the same texels.
+    std::array<double, 4> corners{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        m_column = k % 2 == 0 ? column.low : column.high;
+        m_row = k < 2 ? row.low : row.high;
+        fetch_all([&](double& value) { corners.at(k) = value; });
+    }
+    const double value = mix(mix(corners[0], corners[1], column.weight),
+                             mix(corners[2], corners[3], column.weight), row.weight);
     for (const int out : ctx.out)
-        if (out >= 0) fetch(texture_at(m_shading, ctx.texels), out, 1);
+        if (out >= 0)
+            m_planes[static_cast<std::size_t>(out)] =
+                rounded(value, out, texture.is_signed(0), table_values());
 }
 
 void ExactInputs::average(const AverageTableCtx& ctx, double s, double t, double half) {
@@ -630,9 +744,9 @@ const Texture& texture_at(const Shading& shading, const std::uint8_t* texels) {
                           [&](const TexturePtr& t) { return t && t->texels() == texels; });
 }
 
-int chosen_level(const LevelAddressCtx& ctx, int lod) {
-    const int last = ctx.level_count - 1;
-    switch (ctx.choice) {
+int chosen_level(LevelChoice choice, int level_count, int lod) {
+    const int last = level_count - 1;
+    switch (choice) {
         case LevelChoice::base:
             break;
         case LevelChoice::nearest:

@@ -9,6 +9,7 @@
 #include "machine/interpreter.hpp"
 #include "shade/attributes.hpp"
 #include "shade/shading.hpp"
+#include "trace/table_grid.hpp"
 
 namespace burnish {
 
@@ -21,6 +22,7 @@ struct InputRounding {
     int texels = kExactBits;
     int filter = kExactBits;  ///< each lerp, and the fraction of its weight, cut off downwards
     int table = kExactBits;   ///< of texels at computed coordinates: 2^b along an axis, of b bits
+    const TableGrid* grid = nullptr;  ///< of models' tables; null: as TableGrid is made
 };
 
 /// Register planes that hold x/2 + 1/2, since `program` or a texture unit expands them.
@@ -43,6 +45,11 @@ class ExactInputs {
     void feed_all(std::span<const InputOp> ops);
     /// `ops` once for every probe, and the means of what they bring.
     void feed_probes(const ProbedCtx& probed, std::span<const InputOp> ops);
+    /// Moves the coordinates of corners to one of the texels around the sample point, a hair behind
+    /// its centre, so that other operations find nothing but that texel.
+    void stand_at(const TexelCornerCtx& corner);
+    /// What the right and the lower texels around the sample point weigh; known after stand_at.
+    [[nodiscard]] std::array<double, 2> corner_weights() const { return m_corner_weights; }
     /// Registers before the program; units that are off read (0, 0, 0, 1), those without a result
     /// (0, 0, 0, 0).
     [[nodiscard]] RealRegisters registers() const;
@@ -89,6 +96,17 @@ class ExactInputs {
     Position position_along(const LookUpTableCtx::Axis& axis, double at);
     /// The same, on the grid of a table if the coordinate was computed.
     Position table_position(double u, int size, AddressMode mode, bool linear, bool rectangle);
+    /// Two texels of a model's table on the grid of InputRounding::grid, as positions in the table
+    /// that the program has.
+    struct GridPlace {
+        Position low, high;
+        double weight;
+    };
+    GridPlace grid_place(const LookUpTableCtx& ctx, std::size_t axis, double at);
+    [[nodiscard]] int table_values() const;
+    [[nodiscard]] bool is_texel(std::int32_t width, std::int32_t height) const {
+        return m_corner_size == std::array{width, height};
+    }
     /// The weight of a lerp as its filter has it.
     [[nodiscard]] double cut(double weight) const;
     /// A number for `plane`, or a channel of a texel.
@@ -103,6 +121,9 @@ class ExactInputs {
     // What the last address found.
     int m_level = 0, m_layer = 0;
     Position m_column{}, m_row{};
+    std::array<double, 2> m_corner_weights{};
+    std::array<std::int32_t, 2> m_corner_size{};  ///< of the level that the corner is a texel of
+    bool m_is_texel = false;  ///< the last address is that of a corner's own texel
     bool m_is_table = false;  ///< coordinates were computed from texels, registers or light
 };
 
@@ -114,7 +135,7 @@ int any_output(std::span<const int, 4> out);
 const Texture& texture_at(const Shading& shading, const std::uint8_t* texels);
 
 /// Which level an address takes for a level of detail; numbers of levels and 1/256 levels.
-int chosen_level(const LevelAddressCtx& ctx, int lod);
+int chosen_level(LevelChoice choice, int level_count, int lod);
 
 /// The slice behind slice `at`.
 int slice_behind(int at, int depth, AddressMode mode);

@@ -1,6 +1,7 @@
 #include "trace/fragment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <span>
@@ -312,7 +313,8 @@ class InputTracer {
     [[nodiscard]] TracedTaps taps_of(const Texture& texture) const {
         TracedTaps taps;
         const int lod = m_level.lambda < 0 ? 0 : m_packet.plane(m_level.lambda);
-        taps.level = m_level.level_count == 0 ? 0 : chosen_level(m_level, lod);
+        taps.level =
+            m_level.level_count == 0 ? 0 : chosen_level(m_level.choice, m_level.level_count, lod);
         const TextureLevel& level = texture.levels()[static_cast<std::size_t>(taps.level)];
         // A row and a column of border may lie before the first texel.
         const std::int32_t margin = texture.pitch() + texture.texel_bytes();
@@ -415,15 +417,51 @@ class StageFetches {
     std::vector<double> m_footprints;
 };
 
+/// What moves coordinates to a corner, on both kinds of numbers.
+TracedCorner stand_at(const Shading& shading, const CornerChoice& at, LonePacket& packet,
+                      ExactInputs& exact) {
+    const CornerShading& corners = *shading.corners;
+    for (const InputOp& op : corners.level) {
+        feed_input(op, shading.program.numbers, table_reference(), packet.runs(), packet.packet());
+        feed_exactly(op, packet, exact);
+    }
+    TexelCornerCtx corner = corners.corner;
+    corner.right = at.right ? 1 : 0;
+    corner.below = at.below ? 1 : 0;
+    if (at.above) corner.choice = LevelChoice::ceiling;
+    table_reference().texel_corner(packet.packet(), corner);
+    exact.stand_at(corner);
+    TracedCorner traced;
+    traced.right = at.right;
+    traced.below = at.below;
+    const auto weight = [&](std::size_t axis) {
+        return TracedNumber{packet.plane(corner.weight + static_cast<int>(axis)) / 256.0,
+                            exact.corner_weights().at(axis)};
+    };
+    traced.weight_x = weight(0);
+    traced.weight_y = weight(1);
+    traced.u = number(packet.attribute(corner.to), exact.attribute(corner.to));
+    traced.v = number(packet.attribute(corner.to + 1), exact.attribute(corner.to + 1));
+    if (corner.lambda >= 0) {
+        const double lod = exact.plane(corner.lambda);
+        const int code = packet.plane(corner.lambda);
+        traced.level = chosen_level(corner.choice, corner.level_count, code);
+        if (corners.blends_levels())
+            traced.level_weight = {(code & 255) / 256.0, lod - std::floor(lod)};
+    }
+    return traced;
+}
+
 }  // namespace
 
 FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
-                            std::int32_t y, TracedFragment& out) {
+                            std::int32_t y, const CornerChoice* at, TracedFragment& out) {
     const Barycentrics place = barycentrics(draw.mesh(), triangle, x, y);
     LonePacket packet(draw.shading, draw.mesh(), triangle, x, y);
     ExactInputs exact(draw.shading, draw.mesh(), triangle, x, y);
     out.barycentrics = place.weight;
     out.one_over_w = number(packet.one_over_w(), place.one_over_w);
+    if (at != nullptr) out.corner = stand_at(draw.shading, *at, packet, exact);
     InputTracer tracer(draw.shading, packet, exact);
     tracer.run(out);
     FragmentInputs inputs = tracer.registers();

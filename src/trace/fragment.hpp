@@ -19,10 +19,16 @@ struct FragmentInputs {
     FetchReals fetch_exactly;
 };
 
+/// Which of the texels around the sample point a program runs at, with FilterOrder::after.
+struct CornerChoice {
+    bool above = false;  ///< of the upper one of two levels
+    bool right = false, below = false;
+};
+
 /// Interpolates at pixel (x, y) of the window and feeds the registers: by the scalar kernels, and
 /// exactly. `draw` was prepared with Wanted::everything. Sets barycentrics, interpolants and
-/// fetches of `out`.
+/// fetches of `out`, and its corner where the draw has corners, `at` one of them.
 FragmentInputs trace_inputs(const Draw& draw, const SetupTriangle& triangle, std::int32_t x,
-                            std::int32_t y, TracedFragment& out);
+                            std::int32_t y, const CornerChoice* at, TracedFragment& out);
 
 }  // namespace burnish

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/trace.hpp>
+#include <map>
 #include <utility>
 
 #include "core/parallel.hpp"
 #include "shade/normalisation_cube.hpp"
+#include "trace/filter_corners.hpp"
 #include "trace/fragment.hpp"
 #include "trace/pixel.hpp"
 #include "trace/program.hpp"
@@ -37,24 +39,48 @@ class TracedFrame {
     }
 
     TracedFragment fragment(const VisibleTriangle& seen, int x, int y) {
-        TracedFragment out = in_light(0, seen, x, y);
+        if (!m_draws[seen.setup.draw]->shading.corners) return in_all_lights(seen, x, y, nullptr);
+        std::vector<TracedFragment> corners;
+        const auto add_level = [&](bool above) {
+            for (const bool below : {false, true}) {
+                for (const bool right : {false, true}) {
+                    const CornerChoice at{.above = above, .right = right, .below = below};
+                    corners.push_back(in_all_lights(seen, x, y, &at));
+                }
+            }
+        };
+        add_level(false);
+        const auto& blended = corners.front().corner->level_weight;
+        if (blended && blended->value > 0.0) add_level(true);
+        TracedFragment out = corners.front();
+        out.corner.reset();
+        out.further_lights.clear();
+        out.units.clear();
+        out.fetches.clear();
+        out.stages.clear();
+        filter_corners(m_scene.machine.numbers, corners, out);
+        out.corners = std::move(corners);
+        return out;
+    }
+
+  private:
+    /// @param at  null: at the pixel's own coordinates
+    TracedFragment in_all_lights(const VisibleTriangle& seen, int x, int y,
+                                 const CornerChoice* at) {
+        TracedFragment out = in_light(0, seen, x, y, at);
         const std::size_t further = m_draws[seen.setup.draw]->shading.further_lights.size();
         for (std::size_t light = 1; light <= further; ++light) {
-            out.further_lights.push_back(in_light(light, seen, x, y));
+            out.further_lights.push_back(in_light(light, seen, x, y, at));
             add_light(out.further_lights.back(), out);
         }
         return out;
     }
 
-  private:
-    TracedFragment in_light(std::size_t light, const VisibleTriangle& seen, int x, int y) {
+    TracedFragment in_light(std::size_t light, const VisibleTriangle& seen, int x, int y,
+                            const CornerChoice* at) {
         const std::size_t number = seen.setup.draw;
         const Object& object = m_scene.objects[number];
-        const ProgramMaterial program = program_of(object, m_scene, light, m_maps);
-        Draw draw;
-        prepare_draw(draw, m_view, object, {&program, 1}, light, {.everything = true});
-        transform_draw(draw, m_view, object, table_reference(), m_pool);
-
+        const auto& [program, draw] = lit_draw(number, light);
         TracedFragment out;
         out.object = number;
         out.material = object.material ? object.material->name : Material{}.name;
@@ -62,12 +88,28 @@ class TracedFrame {
         out.clipped = seen.setup.clipped != 0;
         out.depth = static_cast<double>(seen.depth);
         out.units = traced_units(program, m_scene.machine);
-        const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, out);
+        const FragmentInputs inputs = trace_inputs(draw, seen.setup, x, y, at, out);
         name_corners(draw, seen.setup, out);
         trace_program(program, m_scene.machine, inputs, out);
         out.light_codes = out.codes;
         out.light_color = out.color;
         return out;
+    }
+
+    /// An object in one light alone.
+    struct LitDraw {
+        ProgramMaterial program;
+        Draw draw;
+    };
+    const LitDraw& lit_draw(std::size_t number, std::size_t light) {
+        std::unique_ptr<LitDraw>& lit = m_lit[{number, light}];
+        if (lit) return *lit;
+        lit = std::make_unique<LitDraw>();
+        const Object& object = m_scene.objects[number];
+        lit->program = program_of(object, m_scene, light, m_maps);
+        prepare_draw(lit->draw, m_view, object, {&lit->program, 1}, light, {.everything = true});
+        transform_draw(lit->draw, m_view, object, table_reference(), m_pool);
+        return *lit;
     }
 
     /// Colours add up to 1; alpha is the first light's.
@@ -92,6 +134,7 @@ class TracedFrame {
     WorkerPool m_pool{1};
     DerivedMaps m_maps;
     std::vector<std::unique_ptr<Draw>> m_draws;
+    std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<LitDraw>> m_lit;
 };
 
 }  // namespace
@@ -107,11 +150,6 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
         throw Error(ErrorCode::bad_option,
                     "a trace with profile double, which has no registers; expected one of the "
                     "machines");
-    }
-    if (scene.machine.filter_order == FilterOrder::after) {
-        throw Error(ErrorCode::bad_option,
-                    "a trace with filter_order = after, whose programs run at four texels; trace "
-                    "with filter_order = before, or with nearest filters at one of the texels");
     }
     if (scene.machine.quads == Quads::of_pixels) {
         throw Error(ErrorCode::bad_option,

@@ -39,14 +39,29 @@ struct ExperimentAxis {
 /// Values of some axes, all others free: a choice of cells.
 using ExperimentChoice = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// A metric over an axis, one curve for every combination of the other axes.
+/// What a plot shows.
+enum class ExperimentPlotKind {
+    curves,  ///< a metric over an axis, one curve for every combination of the other axes
+    pareto,  ///< a metric over the time that a picture takes, a point for every cell
+    codes,   ///< how many pixels of the highlight have which of 256 values; a plot for every cell
+    polar,   ///< a lobe's picture as its mean along rays from the centre, over their angle
+    waterfall,  ///< one pixel, its stages rounded one after the other; a plot for every cell
+};
+
 struct ExperimentPlot {
+    ExperimentPlotKind kind = ExperimentPlotKind::curves;
     std::string title;
-    std::string x;       ///< an axis
-    std::string y;       ///< a metric
+    std::string x;       ///< an axis; of curves
+    std::string y;       ///< a metric; of curves and pareto
     std::string panels;  ///< an axis: a plot for each of its values; empty: one plot
     ExperimentChoice where;
     bool log_x = false, log_y = false;
+    std::array<int, 2> pixel{};  ///< of waterfall
+
+    /// Whether it is made from the pictures of its cells.
+    [[nodiscard]] bool shows_pictures() const {
+        return kind == ExperimentPlotKind::codes || kind == ExperimentPlotKind::polar;
+    }
 };
 
 /// Rows of pictures: test, reference, signed error and FLIP map of each cell.
@@ -100,6 +115,7 @@ struct Experiment {
     int test_samples = 1, reference_samples = 256, quick_samples = 16;
     float expose = 0.0F;  ///< what the reference's largest channel is made by the light; 0: nothing
     ExperimentPan pan;
+    int repeats = 1;  ///< how often a test's picture is timed; more than once: after a first one
     std::vector<std::string> metrics;  ///< in the order of the columns
     std::vector<ExperimentPlot> plots;
     std::vector<ExperimentSheet> sheets;

@@ -7,6 +7,7 @@
 #include <burnish/texture.hpp>
 #include <burnish/view_state.hpp>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,12 @@ void save_image(const Image8& image, const std::filesystem::path& path);
 /// The same with a text in the file, where the format has a place for one: "Description" of PNG.
 void save_image(const Framebuffer& frame, const std::filesystem::path& path,
                 std::string_view description);
+
+/// Writes a line of UTF-8 into an rgba32f frame, letters of DejaVu Sans (Debian package
+/// fonts-dejavu-core) `size` pixels high, the base line beginning at pixel (x, y); what lies
+/// outside the frame is cut off. Throws Error{io} where the font is missing.
+void draw_text(Framebuffer& frame, int x, int y, std::string_view text, int size,
+               const glm::vec4& color);
 
 /// Text as it is; "-" is no special name.
 void save_text(std::string_view text, const std::filesystem::path& path);

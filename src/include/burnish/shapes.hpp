@@ -36,11 +36,15 @@ MeshData torus_knot(int segments, int sides, const KnotShape& shape = {});
 /// (1, 1). 2 * columns * rows triangles, both >= 1.
 MeshData plane(int columns, int rows);
 
+/// Strip along y from -1 to 1, 1/2 wide in x, waving by 0.15 in z one and a half times, facing +z:
+/// u runs along it, v across. 2 * columns * rows triangles, both >= 1.
+MeshData ribbon(int columns, int rows);
+
 /// Cube of side 1 about the origin, 12 triangles, 24 vertices; each side carries uv from (0, 0) to
 /// (1, 1), upright on the four sides around y.
 MeshData cube();
 
-/// What `named` knows: "sphere", "knot", "plane", "cube".
+/// What `named` knows: "sphere", "knot", "plane", "cube", "ribbon".
 std::vector<std::string_view> names();
 
 /// The shape with that name: `columns` and `rows` of its grid, segments and sides of the knot,

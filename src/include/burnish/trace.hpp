@@ -102,6 +102,16 @@ struct TracedBlend {
     std::array<double, 4> result{};
 };
 
+/// Where a program runs with FilterOrder::after: at one of the four texels around the sample point
+/// of the material's finest map.
+struct TracedCorner {
+    bool right = false, below = false;
+    int level = 0;                    ///< whose texels they are
+    TracedNumber u, v;                ///< where it stands, after the division by q
+    TracedNumber weight_x, weight_y;  ///< of the right and of the lower texels, whichever it is
+    std::optional<TracedNumber> level_weight;  ///< of the upper level, where two are blended
+};
+
 /// A fragment that is in a pixel's colour.
 struct TracedFragment {
     std::size_t object = 0;    ///< of the scene
@@ -123,7 +133,13 @@ struct TracedFragment {
     /// What differs from light to light, for each but the first: interpolants, fetches, stages and
     /// what the final combiner left, in both `codes` and `light_codes`.
     std::vector<TracedFragment> further_lights;
-    std::optional<TracedBlend> blend;  ///< nothing: the colour replaced the pixel's
+    /// With FilterOrder::after, where a map is filtered: the program at the upper left, upper
+    /// right, lower left and lower right texel, and where two levels are blended at those of the
+    /// upper level, each with all lights. This fragment then has interpolants, no fetches and
+    /// stages of its own, and the codes and color that the filter made of theirs.
+    std::vector<TracedFragment> corners;
+    std::optional<TracedCorner> corner;  ///< of such a texel
+    std::optional<TracedBlend> blend;    ///< nothing: the colour replaced the pixel's
 };
 
 struct PixelTrace {

@@ -30,14 +30,12 @@ std::vector<std::string_view> measure_names() {
 }
 
 Measurement measure(const Framebuffer& test, const Framebuffer& reference,
-                    const std::vector<std::string>& names, bool with_flip_map, WorkerPool& pool) {
+                    const std::vector<std::string>& names, WorkerPool& pool) {
     metrics::CompareOptions options;
     options.region = metrics::Region::interior;
     options.metrics.clear();
     for (const std::string& name : names)
         if (const auto metric = metrics::metric_named(name)) options.metrics.push_back(*metric);
-    if (with_flip_map && !has(names, metrics::metric_name(metrics::Metric::flip)))
-        options.metrics.push_back(metrics::Metric::flip);
     metrics::Comparison comparison = metrics::compare(test, reference, options, pool);
     const metrics::Selection selection(test, reference, options.region, pool);
     std::optional<HighlightChange> highlight;

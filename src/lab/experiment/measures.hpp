@@ -27,13 +27,12 @@ struct Measured {
 /// What was asked for of one pair of pictures.
 struct Measurement {
     std::vector<Measured> values;
-    metrics::Plane flip;  ///< empty unless asked for
+    metrics::Plane flip;  ///< empty unless "flip" is asked for
 };
 
-/// Those of `names` that a pair of pictures has; both are rgba32f and of one size. `with_flip_map`:
-/// also if `names` does not ask for FLIP.
+/// Those of `names` that a pair of pictures has; both are rgba32f and of one size.
 Measurement measure(const Framebuffer& test, const Framebuffer& reference,
-                    const std::vector<std::string>& names, bool with_flip_map, WorkerPool& pool);
+                    const std::vector<std::string>& names, WorkerPool& pool);
 
 /// Whether a series of frames is needed.
 bool need_series(const std::vector<std::string>& names);

@@ -11,9 +11,7 @@
 #include "metrics/pixel.hpp"
 
 namespace burnish::lab {
-namespace {
 
-/// Colours as they are, to the nearest byte and opaque.
 Image8 shown(const Framebuffer& frame) {
     Image8 image(frame.width(), frame.height());
     for (int y = 0; y < frame.height(); ++y) {
@@ -29,8 +27,6 @@ Image8 shown(const Framebuffer& frame) {
     }
     return image;
 }
-
-}  // namespace
 
 void save_pictures(const Framebuffer& test, const Framebuffer& reference,
                    const metrics::Plane& flip, float gain, const PictureFiles& files) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/framebuffer.hpp>
+#include <burnish/texture.hpp>
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,9 @@ struct PictureFiles {
         return directory / (name + "." + what + ".exr");
     }
 };
+
+/// Colours of an rgba32f frame as they are, to the nearest byte and opaque.
+Image8 shown(const Framebuffer& frame);
 
 /// Test and reference as EXR and PNG; their signed difference times `gain` and the map of FLIP as
 /// PNG (metrics/heat_map.hpp).

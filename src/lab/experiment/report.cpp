@@ -11,7 +11,6 @@
 
 #include "core/read_text.hpp"
 #include "lab/experiment/fingerprint.hpp"
-#include "lab/experiment/pictures.hpp"
 #include "lab/experiment/tables.hpp"
 
 namespace burnish::lab {
@@ -25,11 +24,7 @@ th, td { border: 1px solid #ccc; padding: .2em .6em; text-align: left; vertical-
 td.n { text-align: right; font-variant-numeric: tabular-nums; }
 .confirmed { color: #0a7a2f; } .refuted { color: #b3261e; } .open { color: #8a6100; }
 .plots svg { max-width: 100%; height: auto; }
-.sheet { display: grid; grid-template-columns: repeat(4, auto); gap: 6px; width: fit-content; }
-.sheet figure { margin: 0; } .sheet img { image-rendering: pixelated; width: 270px; display: block;
-       background: #000; }
-.sheet .row { grid-column: 1 / -1; margin-top: .6em; font-weight: bold; }
-figcaption { font-size: 12px; color: #555; }
+.sheet { max-width: 100%; }
 )";
 
 std::string escaped(const std::string& text) {
@@ -186,46 +181,15 @@ std::string plots_section(const Results& results, const DrawnPlots& plots) {
     return text + "</div>\n";
 }
 
-std::string picture(const std::filesystem::path& png, const std::string& caption) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(png, ignored)) return "<figure></figure>\n";
-    return fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
-        "<figcaption>{0}</figcaption></figure>\n",
-        escaped(caption), base64(read_text(png)));
-}
-
-std::string sheet_row(const Results& results, std::size_t cell, const ExperimentSheet& sheet,
-                      const Store& store) {
-    const Experiment& experiment = results.experiment;
-    std::string name;
-    for (std::size_t axis = 0; axis < experiment.axes.size(); ++axis)
-        name += (axis == 0 ? "" : ", ") +
-                experiment.axes[axis].values[results.cells[cell].values[axis]].label;
-    std::string text = fmt::format("<div class=row>{}</div>\n", escaped(name));
-    const CellResult& result = *results.found[cell];
-    if (!result.refusal.empty())
-        return text +
-               fmt::format("<div class=row><small>{}</small></div>\n", escaped(result.refusal));
-    std::string numbers;
-    for (const Measured& each : result.values)
-        numbers += (numbers.empty() ? "" : ", ") + each.name + " " + shown(each.value);
-    const PictureFiles files{store.images(), results.cells[cell].name};
-    return text + picture(files.png("test"), "test: " + numbers) +
-           picture(files.png("reference"), "reference") +
-           picture(files.png("error"), fmt::format("test - reference, times {}", sheet.gain)) +
-           picture(files.png("flip"), "FLIP");
-}
-
-std::string sheets_section(const Results& results, const Store& store) {
+std::string sheets_section(const Results& results, const DrawnSheets& drawn) {
     std::string text;
-    for (const ExperimentSheet& sheet : results.experiment.sheets) {
-        text += fmt::format("<h2>{}</h2>\n<div class=sheet>\n", escaped(sheet.title));
-        for (std::size_t cell = 0; cell < results.cells.size(); ++cell)
-            if (results.found[cell] &&
-                matches(results.experiment, results.cells[cell], sheet.where))
-                text += sheet_row(results, cell, sheet, store);
-        text += "</div>\n";
+    if (!drawn.problem.empty()) text += fmt::format("<p>{}</p>\n", escaped(drawn.problem));
+    for (std::size_t i = 0; i < drawn.sheets.size(); ++i) {
+        text += fmt::format("<h2>{}</h2>\n", escaped(results.experiment.sheets[i].title));
+        for (const SheetPage& page : drawn.sheets[i])
+            text += fmt::format(
+                "<p><img class=sheet alt=\"{}\" src=\"data:image/png;base64,{}\"></p>\n",
+                escaped(page.rows), base64(read_text(page.png)));
     }
     return text;
 }
@@ -283,7 +247,7 @@ std::string verdicts_markdown(const Results& results, const std::vector<Judgemen
 }
 
 std::string report_html(const Results& results, const std::vector<Judgement>& judgements,
-                        const DrawnPlots& plots, const Store& store) {
+                        const DrawnPlots& plots, const DrawnSheets& sheets) {
     const Experiment& experiment = results.experiment;
     const std::string_view verdict = verdict_name(overall(judgements));
     std::string text = fmt::format(
@@ -300,7 +264,7 @@ std::string report_html(const Results& results, const std::vector<Judgement>& ju
             "<th>found</th><th>inside</th><th>verdict</th></tr>\n" +
             verdict_rows(results, judgements) + "</table>\n";
     return text + setting_section(results) + plots_section(results, plots) +
-           sheets_section(results, store) + table_section(results) + "</body></html>\n";
+           sheets_section(results, sheets) + table_section(results) + "</body></html>\n";
 }
 
 std::string write_results(const Results& results, const Store& store) {
@@ -312,9 +276,10 @@ std::string write_results(const Results& results, const Store& store) {
     save_text(results_json(results, judgements), directory / "results.json");
     save_text(manifest_json(results), directory / "manifest.json");
     save_text(verdicts_markdown(results, judgements), directory / "verdicts.md");
-    const DrawnPlots plots = draw_plots(results, directory / "plots");
-    save_text(report_html(results, judgements, plots, store), directory / "report.html");
-    return plots.problem;
+    const DrawnPlots plots = draw_plots(results, store, directory / "plots");
+    const DrawnSheets sheets = draw_sheets(results, store, directory / "sheets");
+    save_text(report_html(results, judgements, plots, sheets), directory / "report.html");
+    return plots.problem.empty() ? sheets.problem : plots.problem;
 }
 
 }  // namespace burnish::lab

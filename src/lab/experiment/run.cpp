@@ -72,6 +72,15 @@ std::string inputs_fingerprint(const Experiment& experiment) {
     return all.text();
 }
 
+/// A sheet's captions have RMSE and FLIP, whatever the experiment asks for.
+std::vector<std::string> asked_metrics(const Experiment& experiment, bool with_pictures) {
+    std::vector<std::string> names = experiment.metrics;
+    for (const char* caption : {"rmse", "flip"})
+        if (with_pictures && std::find(names.begin(), names.end(), caption) == names.end())
+            names.emplace_back(caption);
+    return names;
+}
+
 /// What the cells of a group have in common.
 struct Reference {
     double light = 1.0;  ///< factor of all lights
@@ -149,7 +158,8 @@ class Runner {
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_program && error.code() != ErrorCode::bad_option)
                 throw;
-            result = {{}, error.what(), 0.0};
+            result = {};
+            result.refusal = error.what();
         }
         m_store.keep(m_results.descriptions[index], result);
         const std::lock_guard lock(m_mutex);
@@ -157,23 +167,38 @@ class Runner {
         if (m_progress) m_progress(++m_done, m_total);
     }
 
+    Framebuffer time_picture(Painter& painter, const Scene& scene, CellResult& result) const {
+        const int repeats = m_results.quick ? 1 : experiment().repeats;
+        if (repeats > 1) painter.draw(scene);  // programs are compiled
+        std::optional<Framebuffer> frame;
+        std::vector<double> times;
+        for (int i = 0; i < repeats; ++i) {
+            const auto start = std::chrono::steady_clock::now();
+            frame.emplace(painter.draw(scene));
+            const std::chrono::duration<double, std::milli> time =
+                std::chrono::steady_clock::now() - start;
+            times.push_back(time.count());
+        }
+        std::sort(times.begin(), times.end());
+        result.ms_low = times.front();
+        result.ms = times[times.size() / 2];
+        result.ms_high = times.back();
+        return std::move(*frame);
+    }
+
     CellResult draw_and_measure(std::size_t index, const Scene& scene,
                                 const Reference& reference) const {
         const Cell& cell = m_results.cells[index];
-        const ExperimentSheet* sheet = m_results.sheet_of(index);
+        const std::optional<float> gain = m_results.pictures_of(index);
         WorkerPool one(1);
         CellResult result;
-        const auto start = std::chrono::steady_clock::now();
         Painter painter(cell.test, cell.test.samples, 1);
-        const Framebuffer test = painter.draw(scene);
-        result.ms =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                .count();
+        const Framebuffer test = time_picture(painter, scene, result);
         Measurement measured =
-            measure(test, reference.frame, experiment().metrics, sheet != nullptr, one);
+            measure(test, reference.frame, asked_metrics(experiment(), gain.has_value()), one);
         result.values = std::move(measured.values);
-        if (sheet != nullptr)
-            save_pictures(test, reference.frame, measured.flip, sheet->gain,
+        if (gain)
+            save_pictures(test, reference.frame, measured.flip, *gain,
                           {m_store.images(), cell.name});
         SeriesMeasurement series(experiment().metrics);
         for (int i = 0; i < series_length(); ++i)
@@ -210,7 +235,8 @@ void check_metrics(Experiment& experiment) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: flicker without [pan]", experiment.file.string()));
     const std::vector<std::string_view> asked(experiment.metrics.begin(), experiment.metrics.end());
-    for (const ExperimentPlot& plot : experiment.plots) check(plot.y, asked, "[[plots]]");
+    for (const ExperimentPlot& plot : experiment.plots)
+        if (!plot.y.empty()) check(plot.y, asked, "[[plots]]");
     for (const ExperimentExpectation& each : experiment.expectations)
         check(each.metric, asked, "[[expect]]");
 }
@@ -229,10 +255,13 @@ std::optional<double> Results::value(std::size_t cell, const std::string& metric
     return std::nullopt;
 }
 
-const ExperimentSheet* Results::sheet_of(std::size_t cell) const {
+std::optional<float> Results::pictures_of(std::size_t cell) const {
     for (const ExperimentSheet& sheet : experiment.sheets)
-        if (matches(experiment, cells[cell], sheet.where)) return &sheet;
-    return nullptr;
+        if (matches(experiment, cells[cell], sheet.where)) return sheet.gain;
+    for (const ExperimentPlot& plot : experiment.plots)
+        if (plot.shows_pictures() && matches(experiment, cells[cell], plot.where))
+            return ExperimentSheet{}.gain;
+    return std::nullopt;
 }
 
 Experiment open_experiment(const std::filesystem::path& file) {
@@ -248,7 +277,7 @@ Results make_results(Experiment experiment, bool quick) {
     const std::string inputs = inputs_fingerprint(results.experiment);
     for (std::size_t i = 0; i < results.cells.size(); ++i)
         results.descriptions.push_back(
-            describe(results.experiment, results.cells[i], quick, inputs, results.sheet_of(i)));
+            describe(results.experiment, results.cells[i], quick, inputs, results.pictures_of(i)));
     return results;
 }
 

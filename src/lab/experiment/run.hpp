@@ -29,8 +29,9 @@ struct Results {
     [[nodiscard]] std::size_t missing() const;
     /// A metric of a cell; nothing if it is missing, refused or has no meaning there.
     [[nodiscard]] std::optional<double> value(std::size_t cell, const std::string& metric) const;
-    /// The first sheet that shows a cell.
-    [[nodiscard]] const ExperimentSheet* sheet_of(std::size_t cell) const;
+    /// Of a cell whose pictures are kept, for a sheet or a plot: the gain of its signed error, as
+    /// the first sheet that shows it has it.
+    [[nodiscard]] std::optional<float> pictures_of(std::size_t cell) const;
 };
 
 /// An experiment's file, its metrics checked: an empty list becomes all that it can have. Throws

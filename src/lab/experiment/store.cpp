@@ -39,6 +39,10 @@ bool read_line(const std::string& line, CellResult& result) {
     if (failure != std::errc() || stop != end) return false;
     if (name == "ms")
         result.ms = value;
+    else if (name == "ms_low")
+        result.ms_low = value;
+    else if (name == "ms_high")
+        result.ms_high = value;
     else
         result.values.push_back({name, value});
     return true;
@@ -55,7 +59,7 @@ void make_directory(const std::filesystem::path& path) {
 }  // namespace
 
 std::string describe(const Experiment& experiment, const Cell& cell, bool quick,
-                     const std::string& inputs, const ExperimentSheet* sheet) {
+                     const std::string& inputs, std::optional<float> gain) {
     std::string text = fmt::format("build {}\ninputs {}\nscene {}\n", build_fingerprint(), inputs,
                                    experiment.scenes[cell.test.scene].filename().string());
     text += text_of("test", cell.test) + text_of("reference", cell.reference);
@@ -67,8 +71,7 @@ std::string describe(const Experiment& experiment, const Cell& cell, bool quick,
                             pan.pixels[1]);
     text += "metrics";
     for (const std::string& name : experiment.metrics) text += " " + name;
-    return text +
-           (sheet != nullptr ? fmt::format("\npictures, errors times {}\n", sheet->gain) : "\n");
+    return text + (gain ? fmt::format("\npictures, errors times {}\n", *gain) : "\n");
 }
 
 Store::Store(std::filesystem::path directory) : m_directory(std::move(directory)) {
@@ -99,7 +102,9 @@ void Store::keep(const std::string& description, const CellResult& result) const
     for (const Measured& each : result.values)
         text += fmt::format("{} {}\n", each.name, each.value);
     if (!result.refusal.empty()) text += fmt::format("refused {}\n", result.refusal);
-    save_text(text + fmt::format("ms {}\nend\n", result.ms), file_of(description));
+    save_text(text + fmt::format("ms {}\nms_low {}\nms_high {}\nend\n", result.ms, result.ms_low,
+                                 result.ms_high),
+              file_of(description));
 }
 
 void Store::take(const Store& other) const {

@@ -14,13 +14,15 @@ namespace burnish::lab {
 struct CellResult {
     std::vector<Measured> values;  ///< empty if refused
     std::string refusal;           ///< why the machine cannot; one line
-    double ms = 0.0;               ///< of the test's picture, on one thread
+    double ms = 0.0;               ///< of the test's picture, on one thread: the median of repeats
+    double ms_low = 0.0, ms_high = 0.0;  ///< the shortest and the longest
 };
 
 /// All that a cell's results depend on, as text: build, files, settings, metrics; `inputs` is the
-/// fingerprint of the files, `sheet` what shows the cell's pictures, or null.
+/// fingerprint of the files, `gain` that of the signed error where pictures are kept. How often the
+/// picture is timed is no part of it.
 std::string describe(const Experiment& experiment, const Cell& cell, bool quick,
-                     const std::string& inputs, const ExperimentSheet* sheet);
+                     const std::string& inputs, std::optional<float> gain);
 
 /// Finished cells as files, named after the fingerprints of their descriptions, which they hold: a
 /// file whose description is another one, or that is damaged, counts as missing.

@@ -60,7 +60,8 @@ std::string json_cell(const Results& results, std::size_t cell) {
             text += fmt::format("{}: {}, ", json_text(metric), json_number(*value));
     if (!result.refusal.empty())
         text += fmt::format("\"refused\": {}, ", json_text(result.refusal));
-    return text + fmt::format("\"ms\": {}}}", result.ms);
+    return text + fmt::format("\"ms\": {}, \"ms_low\": {}, \"ms_high\": {}}}", result.ms,
+                              result.ms_low, result.ms_high);
 }
 
 std::string json_judgement(const ExperimentExpectation& expectation, const Judgement& judgement) {
