@@ -50,7 +50,7 @@ std::optional<TexelGrid> shaded_texels(const Material& material, FilterOrder ord
     const bool is_filtered =
         is_linear_within(source.sampler().filter) || source.sampler().mag_is_linear();
     if (!source.varies() || !is_filtered) return std::nullopt;
-    TexelGrid grid{{}, source.sampler(), source.max_anisotropy(), steps};
+    TexelGrid grid{{}, source.sampler(), steps};
     for (int level = 0; level < source.levels(); ++level)
         grid.sizes.emplace_back(source.width(level), source.height(level));
     return grid;

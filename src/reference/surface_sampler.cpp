@@ -213,7 +213,7 @@ glm::dvec3 layer_value(const LayerQuantity& quantity, const glm::dvec2& uv,
 LevelsSeen TexelGrid::levels(const CoordinateSteps& seen) const {
     const bool has_levels = sizes.size() > 1;
     return levels_seen(has_levels ? seen : CoordinateSteps{}, sizes[0].x, sizes[0].y,
-                       static_cast<int>(sizes.size()), sampler, max_anisotropy);
+                       static_cast<int>(sizes.size()), sampler);
 }
 
 glm::dvec2 TexelGrid::coordinate(const glm::dvec2& uv, int level) const {

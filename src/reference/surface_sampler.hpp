@@ -28,7 +28,6 @@ enum class TexelSteps { exact, machine };
 struct TexelGrid {
     std::vector<glm::ivec2> sizes;  ///< of its levels, in texels
     Sampler sampler;
-    int max_anisotropy;
     TexelSteps steps;  ///< of the coordinates that weights come from
 
     [[nodiscard]] LevelsSeen levels(const CoordinateSteps& seen) const;
