@@ -10,6 +10,15 @@
 namespace burnish {
 namespace {
 
+/// Sanitizers find nothing here that takes them a minute to find.
+bool without_terminal() {
+#ifdef BURNISH_SANITIZED
+    return true;
+#else
+    return std::system("command -v script >/dev/null") != 0;
+#endif
+}
+
 class RenderCommand : public Command {
   protected:
     void SetUp() override {
@@ -97,26 +106,24 @@ TEST_F(RenderCommand, ReferencesThatAreNoneAreBadInputBeforeAnythingIsDrawn) {
 }
 
 TEST_F(RenderCommand, ProgressIsShownOnATerminalAndGoneAfterwards) {
-    if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "no script(1)";
+    if (without_terminal()) GTEST_SKIP() << "no script(1), or with sanitizers";
     const std::string render =
         "render s.toml --machine double --size 320x240 --threads 1 --samples ";
     const std::string typed = on_terminal(render + "400");
     // A machine that needs less than a second has nothing to show.
-    if (typed.find('[') != std::string::npos) {
+    if (typed.find("s left") != std::string::npos) {
         EXPECT_SAYS(typed, "\r[#");
         EXPECT_SAYS(typed, "/300, ") << "tiles of 16 x 16";
         EXPECT_SAYS(typed, " s left\x1b[K");
         EXPECT_SAYS(typed, kGone + std::string("s.png: 320 x 240"));
     }
-    EXPECT_EQ(on_terminal(render + "100 --quiet"), "");
-    EXPECT_EQ(on_terminal(render + "1").find('['), std::string::npos) << "too short for a bar";
-    const Result redirected = run(render + "1");
-    EXPECT_EQ(redirected.err, "");
+    EXPECT_EQ(on_terminal(render + "225 --quiet"), "");
+    EXPECT_EQ(run(render + "225").err, "") << "no terminal";
 }
 
 /// Where nobody knows how much there is to do, seconds are counted.
 TEST_F(RenderCommand, BakingTellsSeconds) {
-    if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "no script(1)";
+    if (without_terminal()) GTEST_SKIP() << "no script(1), or with sanitizers";
     const std::string typed = on_terminal("bake material orbital --size 1024 -o orbital");
     if (typed.find('\x1b') != std::string::npos) {
         EXPECT_TRUE(typed.starts_with("\r1 s\x1b[K")) << typed;
