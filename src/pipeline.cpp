@@ -89,7 +89,8 @@ struct Renderer::State {
                       : nullptr),
           kernels(account ? account->timed() : select_table(options.isa)),
           memory_cap(options.memory_cap),
-          double_samples(options.double_samples) {
+          double_samples(options.double_samples),
+          progress(options.progress) {
         pool.keep_account(account.get());
     }
 
@@ -115,6 +116,7 @@ struct Renderer::State {
     const KernelTable& kernels;
     std::size_t memory_cap;
     int double_samples;
+    std::function<void(std::size_t, std::size_t)> progress;
 
     FrameView frame{};
     bool depth_alone = false;  ///< the frame shows the depth buffer: fragments have no colours
@@ -151,7 +153,8 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
     if (scene.machine.double_precision) {
         if (target.format() == PixelFormat::depth32f) require_machine(scene, "a frame of depths");
         scene.machine.validate();
-        return render_double(scene, target, m_state->pool, {.samples = m_state->double_samples});
+        return render_double(scene, target, m_state->pool,
+                             {.samples = m_state->double_samples, .progress = m_state->progress});
     }
     return render_shown(scene, target, std::nullopt, std::nullopt);
 }

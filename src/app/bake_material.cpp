@@ -11,6 +11,7 @@
 
 #include "app/make_directory.hpp"
 #include "app/material_text.hpp"
+#include "app/progress.hpp"
 #include "app/verbs.hpp"
 
 namespace burnish::app {
@@ -65,6 +66,7 @@ std::string material_text(const GeneratedSet& set, std::string_view model, std::
 }  // namespace
 
 void run(const BakeMaterialOptions& options) {
+    Progress progress(false);
     const GeneratedSet set = generated_set(options.set, options.seed, options.size);
     const std::filesystem::path& directory = options.output;
     make_directory(directory);
@@ -79,6 +81,7 @@ void run(const BakeMaterialOptions& options) {
     save_truth(set, directory / "truth_kd.exr", [&](std::size_t i) { return set.kd[i]; });
     save_truth(set, directory / "truth_ks.exr", [&](std::size_t i) { return set.ks[i]; });
     save_text(material_text(set, model_name(set.model), options.seed), directory / "material.toml");
+    progress.finish();
     fmt::print("{}: material.toml, {} maps of {} x {}, five files of true numbers\n",
                directory.string(), maps_of(set).size(), options.size, options.size);
 }

@@ -11,6 +11,7 @@
 
 #include "app/make_directory.hpp"
 #include "app/material_text.hpp"
+#include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "models/mips/slope_lobe.hpp"
 #include "models/texel.hpp"
@@ -159,6 +160,7 @@ std::string material_text(const Material& material, const TexelSource& source, c
 }  // namespace
 
 void run(const BakeMipsOptions& options) {
+    Progress progress(false);
     Material material = options.material.empty()
                             ? generated_material(options.set, options.seed, options.size)
                             : load_material(options.material);
@@ -170,11 +172,16 @@ void run(const BakeMipsOptions& options) {
     const TexelSource source(material);
     const Codes codes(source);
     make_directory(options.output);
+    const std::size_t files = std::size(kMaps) * static_cast<std::size_t>(source.levels());
+    std::size_t saved = 0;
     for (const Map& map : kMaps) {
-        for (int level = 0; level < source.levels(); ++level)
+        for (int level = 0; level < source.levels(); ++level) {
             save_level(source, level, map, codes, options.output / file_name(map, level));
+            progress.done(++saved, files);
+        }
     }
     save_text(material_text(material, source, codes), options.output / "material.toml");
+    progress.finish();
     fmt::print("{}: material.toml, {} maps of {} x {} with {} levels\n", options.output.string(),
                std::size(kMaps), source.width(), source.height(), source.levels());
 }

@@ -8,6 +8,7 @@
 
 #include "app/balance.hpp"
 #include "app/picture.hpp"
+#include "app/progress.hpp"
 #include "app/stats.hpp"
 #include "app/verbs.hpp"
 
@@ -43,11 +44,14 @@ struct Measurement {
 Measurement measure(Renderer& renderer, const Scene& scene, Framebuffer& frame,
                     const BenchOptions& options) {
     Measurement result;
-    for (int i = 0; i < kWarmUp + options.frames; ++i) {
+    Progress progress(options.picture.quiet);
+    const int frames = kWarmUp + options.frames;
+    for (int i = 0; i < frames; ++i) {
         const auto start = std::chrono::steady_clock::now();
         result.last = draw(renderer, scene, frame, options.shown);
         const std::chrono::duration<double, std::milli> time =
             std::chrono::steady_clock::now() - start;
+        progress.done(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(frames));
         if (i < kWarmUp) continue;
         result.frame.push_back(time.count());
         result.geometry.push_back(result.last.geometry_ms);
@@ -66,7 +70,9 @@ std::vector<FrameStats> accounts(const BenchOptions& options, int threads, int f
                                  const Scene& scene, Framebuffer& frame) {
     PictureOptions picture = options.picture;
     picture.threads = threads;
-    Renderer renderer = make_renderer(picture, 1, true);
+    RendererOptions how = renderer_options(picture);
+    how.accounting = true;
+    Renderer renderer(how);
     std::vector<FrameStats> result;
     for (int i = 0; i < kWarmUp + frames; ++i) {
         FrameStats stats = draw(renderer, scene, frame, options.shown);
@@ -96,7 +102,7 @@ void report_balance(const BenchOptions& options, const Scene& scene, Framebuffer
 }  // namespace
 
 void run(const BenchOptions& options) {
-    Renderer renderer = make_renderer(options.picture);
+    Renderer renderer(renderer_options(options.picture));
     const Scene scene = load_picture(options.picture);
     Framebuffer frame(scene.width, scene.height, scene.format);
     if (options.balance) return report_balance(options, scene, frame);

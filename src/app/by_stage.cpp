@@ -86,7 +86,9 @@ void trace_by_stage(const TraceOptions& options) {
     lab::StageBits bits = lab::machine_bits(scene.machine);
     lab::set_stage_bits(bits, options.bits);
     if (!options.rounding.empty()) lab::set_stage_bits(bits, "rounding", options.rounding);
+    Progress progress(options.picture.quiet);
     const auto show = [&](const auto& attribution, const std::string& where) {
+        progress.finish();
         const std::string title =
             fmt::format("{}{} on {}, rounding {}", options.picture.input.string(), where,
                         scene.machine.name, lab::rounding_name(bits.rounding));
@@ -105,7 +107,6 @@ void trace_by_stage(const TraceOptions& options) {
              fmt::format(", pixel {},{}", at.x, at.y));
         return;
     }
-    Progress progress(options.picture.quiet);
     show(lab::attribute_error(
              scene, bits, threads,
              [&](std::size_t done, std::size_t total) { progress.done(done, total); }),

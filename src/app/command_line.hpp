@@ -52,11 +52,24 @@ enum class StatsFormat { none, text, json };
 /// What the picture shows instead of colours.
 using Shown = std::variant<ShownRegister, Aov>;
 
+struct Threshold {
+    metrics::Metric metric;
+    double limit;
+};
+
+/// Both are drawn; from 0.
+struct FrameRange {
+    int first, last;
+};
+
 struct RenderOptions {
     PictureOptions picture;
-    std::string output;    ///< empty: the input's stem + ".png"; "-": standard output
-    int samples_side = 1;  ///< samples per pixel: its square
-    int turntable = 0;     ///< frames of one turn; 0: a single picture
+    std::string output;                ///< empty: the input's stem + ".png"; "-": standard output
+    int samples_side = 1;              ///< samples per pixel: its square
+    int turntable = 0;                 ///< frames of one turn; 0: a single picture
+    std::optional<FrameRange> frames;  ///< of the turntable; all of them
+    std::string reference;             ///< what the pictures are compared with; empty: nothing
+    std::vector<Threshold> limits;     ///< of that comparison; empty: the same picture
     StatsFormat stats = StatsFormat::none;
     std::optional<Shown> shown;  ///< --aov
 };
@@ -83,11 +96,6 @@ struct BenchOptions {
     std::optional<Shown> shown;  ///< --aov
     bool balance = false;        ///< instead of times
     bool json = false;
-};
-
-struct Threshold {
-    metrics::Metric metric;
-    double limit;
 };
 
 struct CompareOptions {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/limits.hpp"
+#include "app/progress.hpp"
 #include "app/stats.hpp"
 #include "app/text_table.hpp"
 #include "app/verbs.hpp"
@@ -26,46 +28,12 @@ bool contains(const std::vector<Metric>& list, Metric metric) {
     return std::find(list.begin(), list.end(), metric) != list.end();
 }
 
-void add(std::vector<Metric>& list, Metric metric) {
-    if (!contains(list, metric)) list.push_back(metric);
-}
-
-/// With what limits and pictures need, and in the order of the enumeration.
+/// With what pictures need.
 metrics::CompareOptions complete(const CompareOptions& options) {
     metrics::CompareOptions measured = options.measured;
-    for (const Threshold& t : options.thresholds) add(measured.metrics, t.metric);
     if (!options.heat_map.empty() && !contains(measured.metrics, Metric::flip_hdr))
-        add(measured.metrics, Metric::flip);
-    add(measured.metrics, Metric::nonfinite);
-    std::sort(measured.metrics.begin(), measured.metrics.end());
-    return measured;
-}
-
-void require_one_size(const CompareOptions& options, const Framebuffer& test,
-                      const Framebuffer& reference) {
-    if (test.width() == reference.width() && test.height() == reference.height()) return;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("{}: {} x {} pixels, expected {} x {} as in {}", options.test.string(),
-                            test.width(), test.height(), reference.width(), reference.height(),
-                            options.reference.string()));
-}
-
-/// Pixels that are no numbers fail a comparison with limits that does not allow them.
-std::vector<std::string> failures(const CompareOptions& options, const Comparison& comparison) {
-    std::vector<Threshold> limits = options.thresholds;
-    const bool allowed = std::any_of(limits.begin(), limits.end(), [](const Threshold& t) {
-        return t.metric == Metric::nonfinite;
-    });
-    if (!limits.empty() && !allowed) limits.push_back({Metric::nonfinite, 0.0});
-    std::vector<std::string> lines;
-    for (const Threshold& t : limits) {
-        const double value = comparison[t.metric];
-        if (metrics::is_worse(t.metric, value, t.limit))
-            lines.push_back(fmt::format("{}: {} {:.6g}, expected {}", options.test.string(),
-                                        metric_name(t.metric), value,
-                                        metrics::limit_text(t.metric, t.limit)));
-    }
-    return lines;
+        measured.metrics.push_back(Metric::flip);
+    return with_limits(std::move(measured), options.thresholds);
 }
 
 /// JSON has no word for what is not finite.
@@ -136,23 +104,21 @@ void save_pictures(const CompareOptions& options, const Framebuffer& test,
 }  // namespace
 
 void run(const CompareOptions& options) {
+    Progress progress(options.quiet);
     std::future<Framebuffer> loading =
         std::async(options.threads == 1 ? std::launch::deferred : std::launch::async,
                    [&options] { return load_frame(options.reference); });
     const Framebuffer test = load_frame(options.test);
     const Framebuffer reference = loading.get();
-    require_one_size(options, test, reference);
+    require_one_size(options.test, test, options.reference, reference);
     const metrics::CompareOptions measured = complete(options);
     WorkerPool pool(options.threads);
     const Comparison comparison = compare(test, reference, measured, pool);
     const double nonfinite = comparison[Metric::nonfinite];
-    if (comparison.pixels == 0)
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("{}: no pixel to compare: {} of those in the mask are NaN or "
-                                "infinite",
-                                options.reference.string(), nonfinite));
+    require_pixels(comparison, options.reference);
     save_pictures(options, test, reference, comparison);
-    std::vector<std::string> lines = failures(options, comparison);
+    progress.finish();
+    std::vector<std::string> lines = failures(options.test, options.thresholds, comparison);
     if (options.json)
         fmt::print("{}", json(options, measured, comparison, lines.empty()));
     else if (!options.quiet)

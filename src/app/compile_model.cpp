@@ -8,6 +8,7 @@
 #include <burnish/materials.hpp>
 #include <utility>
 
+#include "app/progress.hpp"
 #include "app/verbs.hpp"
 
 namespace burnish::app {
@@ -97,6 +98,7 @@ std::vector<std::string> units_read(const ProgramPass& pass) {
 }
 
 void run(const CompileModelOptions& options) {
+    Progress progress(false);
     ModelReport report;
     report.material = material_of(options);
     report.material_file = options.material.string();
@@ -117,6 +119,7 @@ void run(const CompileModelOptions& options) {
                                       ? ProfileVerdict{profile, {}, pass_count(report.compiled)}
                                       : verdict_of(report.material, profile));
     }
+    progress.finish();
     fmt::print("{}", options.json ? model_report_json(report) + "\n" : model_report_text(report));
 }
 

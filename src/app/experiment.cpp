@@ -32,6 +32,7 @@ void run(const ExperimentOptions& options) {
             options.experiment, options.output, how,
             [&](std::size_t done, std::size_t total) { progress.done(done, total); });
     }
+    progress.finish();
     if (!outcome.problem.empty()) fmt::print(stderr, "burnish: {}\n", outcome.problem);
     if (!options.quiet) report(outcome);
 }

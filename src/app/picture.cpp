@@ -152,13 +152,11 @@ Scene load_picture(const PictureOptions& options) {
     return std::move(loaded.scene);
 }
 
-Renderer make_renderer(const PictureOptions& options, int double_samples, bool accounting) {
+RendererOptions renderer_options(const PictureOptions& options) {
     RendererOptions renderer;
     renderer.threads = options.threads;
     renderer.isa = options.isa;
-    renderer.double_samples = double_samples;
-    renderer.accounting = accounting;
-    return Renderer(renderer);
+    return renderer;
 }
 
 FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,

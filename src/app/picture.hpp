@@ -11,11 +11,9 @@ namespace burnish::app {
 /// Reads the input and applies every option. Notes of the loader go to standard error.
 Scene load_picture(const PictureOptions& options);
 
-/// Throws Error{bad_option} for an ISA that is not there, before any file is read.
-/// `double_samples`: as in RendererOptions.
-/// `accounting`: as well.
-Renderer make_renderer(const PictureOptions& options, int double_samples = 1,
-                       bool accounting = false);
+/// Threads and instruction set. A renderer of them, made before any file is read, throws
+/// Error{bad_option} for an ISA that is not there.
+RendererOptions renderer_options(const PictureOptions& options);
 
 /// Renders; what the scene cannot do counts as bad input, not as wrong usage.
 FrameStats draw(Renderer& renderer, const Scene& scene, Framebuffer& target,

@@ -1,10 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <chrono>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "app/limits.hpp"
 #include "app/output_name.hpp"
 #include "app/picture.hpp"
 #include "app/progress.hpp"
@@ -71,33 +77,87 @@ void report(const RenderOptions& options, const std::string& name, const Framebu
                    stats_text(stats, renderer, frame_ms));
 }
 
+/// What pictures have to be like, if --reference was given.
+class Check {
+  public:
+    explicit Check(const RenderOptions& options) : m_options(options) {
+        if (m_limits.empty()) m_limits.push_back({metrics::Metric::max, 0.0});
+    }
+
+    /// Reads the reference of frame `i`, before the time for the picture is spent.
+    void prepare(int i, const Framebuffer& frame, const std::string& name) {
+        if (m_options.reference.empty()) return;
+        m_path = numbered_name(m_options.reference, i);
+        m_reference.emplace(load_frame(m_path));
+        require_one_size(name, frame, m_path, *m_reference);
+    }
+
+    /// Compares what was written.
+    void compare(const std::string& name) {
+        if (!m_reference) return;
+        for (std::string& line : failures(name, m_path, *m_reference, m_limits, m_pool))
+            m_failures.push_back(std::move(line));
+    }
+
+    /// Throws CheckFailed if a picture broke a limit.
+    void require_success() {
+        if (!m_failures.empty()) throw CheckFailed(std::move(m_failures));
+    }
+
+  private:
+    const RenderOptions& m_options;
+    std::vector<Threshold> m_limits = m_options.limits;
+    WorkerPool m_pool{m_options.picture.threads};
+    std::string m_path;
+    std::optional<Framebuffer> m_reference;
+    std::vector<std::string> m_failures;
+};
+
+/// Frames that are drawn of those that a turn has.
+FrameRange frames_of(const RenderOptions& options) {
+    return options.frames.value_or(FrameRange{0, std::max(options.turntable, 1) - 1});
+}
+
 }  // namespace
 
 void run(const RenderOptions& options) {
     const std::string pattern = output_pattern(options);
     numbered_name(pattern, 0);
-    Renderer renderer = make_renderer(options.picture, options.samples_side * options.samples_side,
-                                      options.stats != StatsFormat::none);
+    numbered_name(options.reference, 0);
+    const auto [first, last] = frames_of(options);
+    const auto count = static_cast<std::size_t>(last - first) + 1;
+    std::size_t drawn = 0;
+    Progress progress(options.picture.quiet);
+    RendererOptions how = renderer_options(options.picture);
+    how.double_samples = options.samples_side * options.samples_side;
+    how.accounting = options.stats != StatsFormat::none;
+    how.progress = [&](std::size_t done, std::size_t tiles) {
+        progress.done(drawn * tiles + done, count * tiles);
+    };
+    Renderer renderer(how);
     const Scene scene = load_picture(options.picture);
     const int side = enlargement(options, scene);
-    const int frames = options.turntable > 0 ? options.turntable : 1;
     Framebuffer frame(scene.width, scene.height, frame_format(options, scene, pattern));
-    Progress progress(options.picture.quiet);
-    for (int i = 0; i < frames; ++i) {
+    Check check(options);
+    for (int i = first; i <= last; ++i) {
+        const std::string name = numbered_name(pattern, i);
+        check.prepare(i, frame, name);
         Scene turn = scene;
         if (i > 0)
-            turn.camera =
-                turned(scene.camera, 360.0F * static_cast<float>(i) / static_cast<float>(frames));
+            turn.camera = turned(scene.camera, 360.0F * static_cast<float>(i) /
+                                                   static_cast<float>(options.turntable));
         const Clock::time_point start = Clock::now();
         const FrameStats stats = draw_supersampled(renderer, turn, side, frame, options.shown);
         const double frame_ms = ms_since(start);
-        const std::string name = numbered_name(pattern, i);
         save_image(frame, name);
-        progress.done(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(frames));
-        if (i + 1 == frames)
-            report(options, pattern, frame, stats, renderer, scene.machine.double_precision,
-                   frame_ms);
+        check.compare(name);
+        ++drawn;
+        if (!scene.machine.double_precision) progress.done(drawn, count);
+        if (i < last) continue;
+        progress.finish();
+        report(options, pattern, frame, stats, renderer, scene.machine.double_precision, frame_ms);
     }
+    check.require_success();
 }
 
 }  // namespace burnish::app

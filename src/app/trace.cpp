@@ -7,6 +7,7 @@
 
 #include "app/by_stage.hpp"
 #include "app/picture.hpp"
+#include "app/progress.hpp"
 #include "app/trace_print.hpp"
 #include "app/verbs.hpp"
 
@@ -48,7 +49,8 @@ void require_same_pixel(const PixelTrace& trace, const Framebuffer& frame) {
 
 void run(const TraceOptions& options) {
     if (options.by_stage) return trace_by_stage(options);
-    Renderer renderer = make_renderer(options.picture);
+    Progress progress(options.picture.quiet);
+    Renderer renderer(renderer_options(options.picture));
     const Scene scene = load_picture(options.picture);
     const glm::ivec2 pixel = options.pixel.value();
     if (pixel.x >= scene.width || pixel.y >= scene.height)
@@ -59,6 +61,7 @@ void run(const TraceOptions& options) {
     draw(renderer, scene, frame);
     const PixelTrace trace = trace_pixel(scene, pixel.x, pixel.y);
     require_same_pixel(trace, frame);
+    progress.finish();
     if (options.json)
         fmt::print("{}\n", trace_json(trace, scene));
     else

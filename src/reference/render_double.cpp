@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <burnish/error.hpp>
 #include <chrono>
 #include <cmath>
@@ -301,7 +302,8 @@ class Tile {
 }  // namespace
 
 FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern& pattern,
-                  WorkerPool& pool, const PixelSink& sink) {
+                  WorkerPool& pool, const PixelSink& sink,
+                  const std::function<void(std::size_t, std::size_t)>& progress) {
     FrameStats stats;
     const Clock::time_point start = Clock::now();
     ProjectionCounts counts;
@@ -320,16 +322,18 @@ FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern&
     std::vector<std::vector<Sample>> samples(workers);
     std::vector<std::uint64_t> shaded(workers, 0);
     stats.tiles_per_worker.resize(workers, 0);
-    for_each_index(pool, static_cast<std::size_t>(columns) * frame.rows.size(), 1,
-                   [&](std::size_t index, int worker) {
-                       const auto w = static_cast<std::size_t>(worker);
-                       const auto i = static_cast<int>(index);
-                       const Tile tile(frame, i % columns, i / columns);
-                       tile.find_visible(samples[w]);
-                       shaded[w] += tile.shade(samples[w], sink);
-                       ++stats.tiles_per_worker[w];
-                   });
-    for (const std::uint64_t count : shaded) stats.shaded_pixels += count;
+    const std::size_t count = static_cast<std::size_t>(columns) * frame.rows.size();
+    std::atomic<std::size_t> done = 0;
+    for_each_index(pool, count, 1, [&](std::size_t index, int worker) {
+        const auto w = static_cast<std::size_t>(worker);
+        const auto i = static_cast<int>(index);
+        const Tile tile(frame, i % columns, i / columns);
+        tile.find_visible(samples[w]);
+        shaded[w] += tile.shade(samples[w], sink);
+        ++stats.tiles_per_worker[w];
+        if (progress) progress(done.fetch_add(1) + 1, count);
+    });
+    for (const std::uint64_t samples_shaded : shaded) stats.shaded_pixels += samples_shaded;
     stats.tiles_ms = milliseconds_since(tiles);
     return stats;
 }
@@ -386,10 +390,12 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
         return reference::render(
             reference::double_scene(scene, size.width, size.height, options.layer_machine,
                                     options.machine_grid),
-            size, pattern, pool, [&](int x, int y, const glm::dvec4& color) {
+            size, pattern, pool,
+            [&](int x, int y, const glm::dvec4& color) {
                 store(color, target.format(),
                       target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
-            });
+            },
+            options.progress);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::limit, fmt::format("out of memory for a frame of {}x{} pixels with "
                                                   "{} samples each",

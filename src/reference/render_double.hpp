@@ -22,6 +22,8 @@ struct DoubleOptions {
     /// With a layer machine: also corners where it snaps them to, and texel coordinates in its
     /// steps of 1/256, downwards.
     bool machine_grid = false;
+    /// Of tiles: done, of how many; called by any worker, several at a time.
+    std::function<void(std::size_t, std::size_t)> progress = {};
 };
 inline constexpr int kMaxDoubleSamples = 1024;
 
@@ -41,7 +43,8 @@ using PixelSink = std::function<void(int, int, const glm::dvec4&)>;
 
 /// The same without frame: every pixel in double precision.
 FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern& pattern,
-                  WorkerPool& pool, const PixelSink& sink);
+                  WorkerPool& pool, const PixelSink& sink,
+                  const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 }  // namespace reference
 }  // namespace burnish

@@ -43,4 +43,22 @@ Option threshold_option(std::vector<Threshold>& thresholds) {
         }};
 }
 
+Option reference_threshold_option(std::vector<Threshold>& limits) {
+    return {.names = "--reference-threshold",
+            .value = "NAME=VALUE",
+            .text =
+                "What --reference allows, as --threshold of compare: rmse=0.01,flip=0.05; a "
+                "number alone is meant for rmse",
+            .normal = "max=0, the same picture",
+            .words = limit_words(),
+            .open_words = true,
+            .repeated = true,
+            .separator = ',',
+            .needs = "--reference",
+            .set = [&limits](const std::string& option, const std::string& text) {
+                const bool alone = text.find_first_not_of("0123456789.") == std::string::npos;
+                limits.push_back(parse_threshold(option, alone ? "rmse=" + text : text));
+            }};
+}
+
 }  // namespace burnish::app

@@ -9,4 +9,7 @@ namespace burnish::app {
 /// --threshold NAME=VALUE, several.
 Option threshold_option(std::vector<Threshold>& thresholds);
 
+/// --reference-threshold, several: NAME=VALUE, or a number alone for rmse.
+Option reference_threshold_option(std::vector<Threshold>& limits);
+
 }  // namespace burnish::app

@@ -5,6 +5,7 @@
 #include <burnish/scene.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,9 @@ struct RendererOptions {
     int double_samples = 1;
     /// Fill FrameStats::stages, kernels and tile_costs. Frames then take a few per cent longer.
     bool accounting = false;
+    /// Called where Machine::double_precision is set after every tile of a frame: how many are
+    /// done, of how many. Any worker calls, several at a time.
+    std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
 /// A register of the combiners as the picture, instead of what the final combiner delivers.
