@@ -154,6 +154,43 @@ TEST_F(Command, AnisotropyAsTexturesThereAndBack) {
     EXPECT_NEAR(p.t.y, -0.866, 0.02);
 }
 
+TEST_F(Command, ProbesOfEveryMaterialWithLevels) {
+    write(path("floor.toml"), R"(schema = 1
+[output]
+width = 32
+height = 16
+[camera]
+position = [0, -1.2, 0.25]
+focal_point = [0, 0, 0]
+near = 0.05
+[[lights]]
+position = [0.1, 1, 0.6]
+[[materials]]
+name = "m"
+model = "abp"
+generator = "weave"
+size = 64
+[[objects]]
+shape = "plane"
+material = "m"
+)");
+    const auto picture = [&](const std::string& options) {
+        const Result result =
+            run("render floor.toml -o f.png --machine ideal --mipmaps box " + options);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return load_image(path("f.png")).rgba;
+    };
+    const auto one = picture(""), four = picture("--max-anisotropy 4");
+    EXPECT_TRUE(four != one);
+    EXPECT_TRUE(picture("--max-anisotropy 1") == one);
+    EXPECT_TRUE(picture("-D materials.m.mipmaps=box -D materials.m.max_anisotropy=4") == four);
+    const std::string floor = "render floor.toml -o f.png --machine ideal ";
+    expect_failure(floor + "--max-anisotropy 4", 2, "without mip levels of a material");
+    expect_failure(floor + "--mipmaps box --max-anisotropy 17", 2, "--max-anisotropy");
+    expect_failure(floor + "--mipmaps box --max-anisotropy 4 --filter-order after", 3,
+                   "max_anisotropy 4 of a texture on a machine with filter_order = after");
+}
+
 /// Those that show the library, but for what is drawn.
 TEST_F(Command, ScenesOfTheLibraryAreRead) {
     for (const char* name : {"ward", "fibres", "generated", "generated_spheres"}) {

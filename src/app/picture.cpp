@@ -74,6 +74,7 @@ void replace_materials(const PictureOptions& options, Scene& scene) {
     if (!options.material.empty())
         replacement = std::make_shared<const Material>(load_material(options.material));
     std::map<const Material*, std::shared_ptr<const Material>> changed;
+    bool has_levels = false;
     for (Object& object : scene.objects) {
         if (!std::holds_alternative<Mesh>(object.geometry)) continue;
         if (replacement) object.material = replacement;
@@ -95,10 +96,14 @@ void replace_materials(const PictureOptions& options, Scene& scene) {
             }
             if (options.max_anisotropy && material.mipmaps)
                 material.mipmaps->max_anisotropy = *options.max_anisotropy;
+            has_levels |= material.mipmaps.has_value();
             copy = std::make_shared<const Material>(std::move(material));
         }
         object.material = copy;
     }
+    if (options.max_anisotropy && !has_levels)
+        throw Error(ErrorCode::bad_option,
+                    "--max-anisotropy without mip levels of a material, expected --mipmaps, too");
 }
 
 /// Texture units that are off, once per material.
