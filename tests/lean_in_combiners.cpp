@@ -233,30 +233,35 @@ TEST(LeanInCombiners, ItsTablesAreWhatAPencilSays) {
     EXPECT_NEAR(lobe->texel(0, 0, 0, 1365, 0), 0, 4);
 }
 
-// Levels of the layer are means of the level before: of moments that are weighted alike, whatever
-// parameters they went through.
+// Levels of the layer are means of the level before, whatever parameters they went through: of
+// moments those that are weighted alike, of the energy those of `moments`.
 TEST(LeanInCombiners, LevelsOfTheMapsAreTheirMeans) {
     Material material = generated_material("orbital", 3, 16);
     material.model = Model::lean;
-    material.mipmaps = MaterialMipmaps{MipMethod::moments_unweighted};
-    for (const LayerQuantity& q : material_layer(material, machine_profile("ideal"))) {
-        if (!q.texture || (q.name[0] != 'M' && q.name[0] != 'B')) continue;
-        const Texture& t = *q.texture;
-        const auto value = [&](std::size_t level, int x, int y) {
-            return t.texel(level, 0, x, y, q.channel);
-        };
-        for (std::size_t level = 1; level < 3; ++level) {
-            for (int y = 0; y < t.levels()[level].height; ++y) {
-                for (int x = 0; x < t.levels()[level].width; ++x) {
-                    const double mean = 0.25 * (value(level - 1, 2 * x, 2 * y) +
-                                                value(level - 1, 2 * x + 1, 2 * y) +
-                                                value(level - 1, 2 * x, 2 * y + 1) +
-                                                value(level - 1, 2 * x + 1, 2 * y + 1));
-                    // Codes are words in steps of four.
-                    ASSERT_NEAR(value(level, x, y), mean, 4.0) << q.name << ' ' << level;
+    for (const MipMethod method : {MipMethod::moments_unweighted, MipMethod::moments}) {
+        material.mipmaps = MaterialMipmaps{method};
+        const std::string mean_of = method == MipMethod::moments ? "E" : "BM";
+        int compared = 0;
+        for (const LayerQuantity& q : material_layer(material, machine_profile("ideal"))) {
+            if (!q.texture || mean_of.find(q.name[0]) == std::string::npos) continue;
+            const Texture& t = *q.texture;
+            const auto value = [&](std::size_t level, int x, int y) {
+                return t.texel(level, 0, x, y, q.channel);
+            };
+            for (std::size_t level = 1; level < 3; ++level) {
+                for (int y = 0; y < t.levels()[level].height; ++y) {
+                    for (int x = 0; x < t.levels()[level].width; ++x, ++compared) {
+                        const double mean = 0.25 * (value(level - 1, 2 * x, 2 * y) +
+                                                    value(level - 1, 2 * x + 1, 2 * y) +
+                                                    value(level - 1, 2 * x, 2 * y + 1) +
+                                                    value(level - 1, 2 * x + 1, 2 * y + 1));
+                        // Codes are words in steps of four.
+                        ASSERT_NEAR(value(level, x, y), mean, 4.0) << q.name << ' ' << level;
+                    }
                 }
             }
         }
+        EXPECT_EQ(compared, (method == MipMethod::moments ? 1 : 5) * (64 + 16));
     }
 }
 
