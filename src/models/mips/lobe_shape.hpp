@@ -13,9 +13,10 @@ namespace burnish::mips {
 /// The variance along an axis is alpha^2 / (N + 4) and the energy ks alpha_x alpha_y 2 pi / (N + 2)
 /// of max(0, 1 - q)^(N/2) (docs/models.md), of blinn_phong the same with widths of 1: it has N
 /// alone to say how wide it is. Ward's family, ashikhmin_shirley and ggx count as Gaussians of
-/// variance alpha^2 / 2 whose energy is ks, since their heights fall as they widen; the tails of
-/// ggx have no variance of their own. A text counts as `abp` if it reads N, else as `ward`. Lobes
-/// of fibres are bands across the fibre: no shape.
+/// variance alpha^2 / 2 whose energy is ks, since their heights fall as they widen, but that of
+/// lean, in slopes, is ks / n.z^3, n being set before the energy is; the tails of ggx have no
+/// variance of their own. A text counts as `abp` if it reads N, else as `ward`. Lobes of fibres are
+/// bands across the fibre: no shape.
 class LobeShape {
   public:
     explicit LobeShape(const Material& material);
@@ -39,7 +40,7 @@ class LobeShape {
     void set_energy(TexelParameters& p, const glm::dvec3& energy) const;
 
   private:
-    enum class Kind { power, round, gaussian, fibre };
+    enum class Kind { power, round, gaussian, slopes, fibre };
     /// N, or what the model has in its place.
     [[nodiscard]] double exponent(const TexelParameters& p) const;
 
