@@ -645,7 +645,8 @@ ExactInputs::GridPlace ExactInputs::grid_place(const LookUpTableCtx& ctx, std::s
     const TableGrid& grid = *m_rounding.grid;
     const auto table = std::find_if(grid.tables.begin(), grid.tables.end(),
                                     [&](const auto& each) { return each.texels == ctx.texels; });
-    const SpacedAxis spaced(grid.spacing, table->first.at(axis), table->last.at(axis));
+    const TableGrid::Table known = table == grid.tables.end() ? TableGrid::Table{} : *table;
+    const SpacedAxis spaced(grid.spacing, known.first.at(axis), known.last.at(axis));
     const Position exact =
         position(table_coordinate(of, at), of.size, AddressMode::clamp_to_edge, true, false);
     const double last = of.size - 1;

@@ -27,7 +27,7 @@ struct TableGrid {
 
     /// The argument at the ends of the axes of a table.
     struct Table {
-        const std::uint8_t* texels;
+        const std::uint8_t* texels = nullptr;
         std::array<double, 2> first{}, last{};
     };
     std::vector<Table> tables = {};

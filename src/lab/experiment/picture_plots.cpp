@@ -100,7 +100,8 @@ std::optional<std::string> codes_commands(const Results& results, std::size_t ce
     Counts test{}, reference{};
     const auto count = [&](Counts& counts, const Framebuffer& frame, int x, int y) {
         const double code = 255.0 * metrics::pixel(frame, x, y)[peak.channel];
-        ++counts.at(code > 0.0 ? std::min<std::size_t>(std::lround(code), 255) : 0);
+        const double kept = code > 0.0 ? std::min(code, 255.0) : 0.0;
+        ++counts.at(static_cast<std::size_t>(std::lround(kept)));
     };
     for (int y = 0; y < pair->reference.height(); ++y) {
         for (int x = 0; x < pair->reference.width(); ++x) {
