@@ -45,8 +45,8 @@ class BitRenderer {
     /// @param scene    outlives this object
     /// @param threads  0: one per core; pictures have the same bits with any number
     /// Throws Error{bad_program} for blended draws, fragments that may be dropped after shading and
-    /// mip levels and sums at computed coordinates, Error{bad_option} for profile double, for a filter after
-    /// combining, and what Renderer::render throws.
+    /// mip levels and sums at computed coordinates, Error{bad_option} for profile double, for a
+    /// filter after combining, and what Renderer::render throws.
     explicit BitRenderer(const Scene& scene, int threads = 0);
     ~BitRenderer();
     BitRenderer(const BitRenderer&) = delete;
