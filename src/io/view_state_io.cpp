@@ -47,9 +47,9 @@ std::optional<std::string> known_word(const Section& section, std::string_view k
 void read_machine(const Section& root, ViewState& state) {
     const toml::table* table = root.table("machine");
     if (table == nullptr) return;
-    const Section section(*table, "[machine]",
-                          {"profile", "half_vector", "filter_order", "mipmaps", "mipmap_bits",
-                           "bits"});
+    const Section section(
+        *table, "[machine]",
+        {"profile", "half_vector", "filter_order", "mipmaps", "mipmap_bits", "bits"});
     state.machine = known_word(section, "profile", machine_profile_names()).value_or("");
     state.half_vector = section.text("half_vector");
     Machine tried;

@@ -95,8 +95,8 @@ void set_stage_bits(StageBits& bits, std::string_view key, std::string_view valu
         }
         const std::string_view near = nearest_name(key, names);
         fail(fmt::format(
-            "bits of '{}', expected {}stage0 .. stage{}, table_axis, table_filter or rounding{}", key,
-            listed, kMostStages - 1,
+            "bits of '{}', expected {}stage0 .. stage{}, table_axis, table_filter or rounding{}",
+            key, listed, kMostStages - 1,
             near.empty() ? "" : fmt::format(", did you mean '{}'?", near)));
     }
     const auto at = static_cast<std::size_t>(*number);

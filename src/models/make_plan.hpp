@@ -29,8 +29,8 @@ struct PlanTask {
     NumberModel numbers = NumberModel::wide;
     bool fine_tables = false;  ///< as many texels as wide numbers would have, whatever they are
     TableFilter table_filter = TableFilter::point;
-    bool vertex_light = false;  ///< what depends on n_dot_l alone may come with the vertices
-    bool few_stages = false;    ///< fetches in place of stages that only scale
+    bool vertex_light = false;       ///< what depends on n_dot_l alone may come with the vertices
+    bool few_stages = false;         ///< fetches in place of stages that only scale
     bool scaled_half_vector = true;  ///< the interpolators may scale it: half vectors of the pixel
 };
 

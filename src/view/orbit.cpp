@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+
+#include "core/dmath.hpp"
 
 namespace burnish::view {
 namespace {
 
-constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
+constexpr double kDegree = dmath::kPi / 180.0;
+
+/// Half of the angle of view, in radians.
+double half_view(const Camera& camera) {
+    return 0.5 * static_cast<double>(camera.view_angle) * kDegree;
+}
 
 struct Axes {
     glm::vec3 right, up, back;
@@ -81,9 +88,10 @@ Camera by_vectors(const Camera& camera, const Ball& ball) {
         result.view.reset();
     }
     if (camera.projection) {
-        const float focal = std::abs((*camera.projection)[1][1]);
-        if (focal > 0.0F)
-            result.view_angle = std::clamp(2.0F * std::atan(1.0F / focal) / kDegree, 1.0F, 170.0F);
+        const double focal = std::abs(static_cast<double>((*camera.projection)[1][1]));
+        if (focal > 0.0)
+            result.view_angle = static_cast<float>(
+                std::clamp(2.0 * dmath::atan(1.0 / focal) / kDegree, 1.0, 170.0));
         result.projection.reset();
     }
     return result;
@@ -93,7 +101,8 @@ Camera orbited(Camera camera, float azimuth, float elevation) {
     const glm::vec3 up = glm::normalize(camera.view_up);
     glm::vec3 arm = rotated(camera.position - camera.focal_point, up, -azimuth);
     const float sine = glm::dot(glm::normalize(arm), up);
-    const float height = std::asin(std::clamp(sine, -1.0F, 1.0F)) / kDegree;
+    const double from_pole = dmath::acos(std::clamp(static_cast<double>(sine), -1.0, 1.0));
+    const auto height = static_cast<float>(90.0 - from_pole / kDegree);
     const float higher = std::clamp(height + elevation, -89.0F, 89.0F) - height;
     const glm::vec3 side = glm::cross(up, arm);
     if (glm::length(side) > 1e-6F * glm::length(arm)) arm = rotated(arm, side, -higher);
@@ -104,7 +113,7 @@ Camera orbited(Camera camera, float azimuth, float elevation) {
 Camera panned(Camera camera, float right, float down) {
     const Axes axes = axes_of(camera);
     const float distance = glm::length(camera.position - camera.focal_point);
-    const float height = 2.0F * distance * std::tan(0.5F * camera.view_angle * kDegree);
+    const float height = 2.0F * distance * static_cast<float>(dmath::tan(half_view(camera)));
     const glm::vec3 move = height * (down * axes.up - right * axes.right);
     camera.position += move;
     camera.focal_point += move;
@@ -123,11 +132,13 @@ Camera seen_from(Side side, const Camera& camera, const Ball& ball, float aspect
     constexpr glm::vec3 kFrom[] = {
         {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {1.0F, 1.0F, 1.0F}};
     Camera result = camera;
-    const float half_height = 0.5F * camera.view_angle * kDegree;
-    const float half = aspect < 1.0F ? std::atan(std::tan(half_height) * aspect) : half_height;
+    const double half_height = half_view(camera);
+    const double half = aspect < 1.0F
+                            ? dmath::atan(dmath::tan(half_height) * static_cast<double>(aspect))
+                            : half_height;
     const glm::vec3 from = glm::normalize(kFrom[static_cast<int>(side)]);
     result.focal_point = ball.centre;
-    result.position = ball.centre + from * (ball.radius / std::sin(half));
+    result.position = ball.centre + from * (ball.radius / static_cast<float>(dmath::sin(half)));
     result.view_up = side == Side::top ? glm::vec3(0.0F, 0.0F, -1.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
     return result;
 }

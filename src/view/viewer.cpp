@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/dmath.hpp"
+
 namespace burnish::view {
 namespace {
 
@@ -58,6 +60,11 @@ std::filesystem::path free_name(const std::filesystem::path& input) {
         if (!std::filesystem::exists(name, ignored)) return name;
     }
     throw Error(ErrorCode::io, "screenshot: 9999 files are there already");
+}
+
+/// Nearer by a tenth with each notch of the wheel.
+float zoom_of(float notches) {
+    return static_cast<float>(dmath::pow(1.1, static_cast<double>(notches)));
 }
 
 /// As one that can be read from anywhere.
@@ -201,7 +208,7 @@ void Viewer::handle_motion(const SDL_MouseMotionEvent& event) {
     } else if ((event.state & SDL_BUTTON_MMASK) != 0 || shift) {
         m_session.pan(right, down);
     } else if ((event.state & SDL_BUTTON_RMASK) != 0) {
-        m_session.zoom(std::exp(-2.0F * down));
+        m_session.zoom(zoom_of(-30.0F * down));
     } else {
         m_session.orbit(right, down);
     }
@@ -226,8 +233,7 @@ void Viewer::handle(const SDL_Event& event) {
             if (!io.WantCaptureMouse) handle_motion(event.motion);
             break;
         case SDL_MOUSEWHEEL:
-            if (!io.WantCaptureMouse)
-                m_session.zoom(std::pow(1.1F, static_cast<float>(event.wheel.y)));
+            if (!io.WantCaptureMouse) m_session.zoom(zoom_of(static_cast<float>(event.wheel.y)));
             break;
         case SDL_DROPFILE:
             m_session.try_open(event.drop.file);
@@ -246,8 +252,7 @@ void Viewer::wait_for_events() {
     do {
         // Whose click it is depends on what lies under the mouse, which panels find out as they
         // are made.
-        const bool is_button =
-            event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP;
+        const bool is_button = event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP;
         if (is_button) draw();
         handle(event);
         // Dear ImGui sees what is pressed as it makes panels: a key that came and went between two
