@@ -108,13 +108,13 @@ TEST(ViewOrbit, MatricesBecomeVectors) {
 
 TEST(ViewPace, DividesSidesUntilAFrameFits) {
     Pace pace(10.0);
-    pace.took("m", 1e6, 42.0, 2.0);             // 40 ns a pixel, 2 ms whatever its size
-    EXPECT_EQ(pace.divisor("m", 0.2e6, 1), 1);  // 8 ms are left
-    EXPECT_EQ(pace.divisor("m", 0.21e6, 1), 2);
-    EXPECT_EQ(pace.divisor("m", 0.8e6, 1), 2);
-    EXPECT_EQ(pace.divisor("m", 0.81e6, 1), 3);
-    EXPECT_EQ(pace.divisor("m", 1e12, 1), 16);
-    EXPECT_GT(pace.divisor("m", 0.2e6, 2), 1);
+    pace.took("m", 1e6, 42.0, 2.0);               // 40 ns a pixel, 2 ms whatever its size
+    EXPECT_EQ(pace.divisor("m", 0.2e6, 1), 1.0);  // 8 ms are left
+    EXPECT_EQ(pace.divisor("m", 0.21e6, 1), 1.125);
+    EXPECT_EQ(pace.divisor("m", 0.8e6, 1), 2.0);
+    EXPECT_EQ(pace.divisor("m", 0.81e6, 1), 2.125);
+    EXPECT_EQ(pace.divisor("m", 1e12, 1), 16.0);
+    EXPECT_GT(pace.divisor("m", 0.2e6, 2), 1.0);
 }
 
 TEST(ViewFrameTimes, QuantilesAndRate) {

@@ -54,7 +54,7 @@ std::string FrameTimes::json() const {
     for (const Frame& frame : m_frames) {
         text += fmt::format(
             "{}{{\"interval_ms\": {:.3f}, \"draw_ms\": {:.3f}, \"geometry_ms\": {:.3f}, "
-            "\"tiles_ms\": {:.3f}, \"shaded_pixels\": {}, \"triangles\": {}, \"divisor\": {}}}",
+            "\"tiles_ms\": {:.3f}, \"shaded_pixels\": {}, \"triangles\": {}, \"divisor\": {:g}}}",
             comma, frame.interval_ms, frame.draw_ms, frame.geometry_ms, frame.tiles_ms,
             frame.pixels, frame.triangles, frame.divisor);
         comma = ", ";

@@ -21,7 +21,7 @@ class FrameTimes {
         double draw_ms = 0.0;
         double geometry_ms = 0.0, tiles_ms = 0.0;  ///< of one pane
         std::uint64_t pixels = 0, triangles = 0;   ///< shaded; submitted
-        int divisor = 1;                           ///< of the sides of a pane
+        double divisor = 1.0;                      ///< of the sides of a pane
     };
     /// The last ones, oldest first, at most kKept.
     [[nodiscard]] const std::deque<Frame>& last() const { return m_frames; }

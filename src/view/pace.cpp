@@ -8,7 +8,8 @@ namespace {
 
 /// Before anything was measured: a small picture, since a long frame cannot be taken back.
 constexpr double kUnknownNsPerPixel = 60.0;
-constexpr int kMostDivisor = 16;
+constexpr double kMostDivisor = 16.0;
+constexpr double kSteps = 8.0;
 /// Fixed costs beyond this share of the budget: a smaller picture would not help.
 constexpr double kMostFixed = 0.5;
 
@@ -27,13 +28,13 @@ void Pace::took(const std::string& machine, double pixels, double ms, double fix
     known->second.ns_per_pixel = followed(known->second.ns_per_pixel, now);
 }
 
-int Pace::divisor(const std::string& machine, double pixels, int shares) const {
+double Pace::divisor(const std::string& machine, double pixels, int shares) const {
     const auto known = m_costs.find(machine);
     const Cost cost = known == m_costs.end() ? Cost{0.0, kUnknownNsPerPixel} : known->second;
     const double budget = m_budget_ms / shares;
     const double allowed = 1e6 * (budget - std::min(cost.fixed_ms, kMostFixed * budget));
     const double ratio = std::sqrt(pixels * cost.ns_per_pixel / allowed);
-    return std::clamp(static_cast<int>(std::ceil(ratio - 1e-9)), 1, kMostDivisor);
+    return std::clamp(std::ceil(kSteps * ratio - 1e-9) / kSteps, 1.0, kMostDivisor);
 }
 
 }  // namespace burnish::view

@@ -13,9 +13,9 @@ class Pace {
 
     /// `machine` took `ms` for so many pixels, `fixed_ms` of it for what no size makes shorter.
     void took(const std::string& machine, double pixels, double ms, double fixed_ms);
-    /// What a frame of `pixels` is divided by, in width and height: 1 .. 16. `shares`: how many
-    /// pictures have to fit into the budget.
-    [[nodiscard]] int divisor(const std::string& machine, double pixels, int shares) const;
+    /// What a frame of `pixels` is divided by, in width and height: 1 .. 16 in steps of an eighth.
+    /// `shares`: how many pictures have to fit into the budget.
+    [[nodiscard]] double divisor(const std::string& machine, double pixels, int shares) const;
 
   private:
     double m_budget_ms;

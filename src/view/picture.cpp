@@ -46,18 +46,18 @@ std::uint32_t pixel_at(const Framebuffer& frame, int x, int y) {
     return value;
 }
 
-/// Columns of `target` from a frame whose sides are `divisor` times smaller.
-void put_columns(const Framebuffer& source, int divisor, const Columns& columns,
-                 Framebuffer& target) {
+/// Columns of `target` from a frame of that size or a smaller one, enlarged.
+void put_columns(const Framebuffer& source, const Columns& columns, Framebuffer& target) {
     const auto count = static_cast<std::size_t>(std::max(columns.to - columns.from, 0));
     for (int y = 0; y < target.height(); ++y) {
         std::byte* out = target.row(y) + 4 * static_cast<std::size_t>(columns.from);
-        if (divisor == 1) {
+        if (source.width() == target.width()) {
             std::memcpy(out, source.row(y) + 4 * static_cast<std::size_t>(columns.from), 4 * count);
             continue;
         }
+        const int row = y * source.height() / target.height();
         for (int x = columns.from; x < columns.to; ++x, out += 4) {
-            const std::uint32_t value = pixel_at(source, x / divisor, y / divisor);
+            const std::uint32_t value = pixel_at(source, x * source.width() / target.width(), row);
             std::memcpy(out, &value, sizeof value);
         }
     }
@@ -159,11 +159,11 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         if (fineness == Fineness::within_budget && can_shrink(scene))
             report.divisor = m_pace.divisor(pace, static_cast<double>(scene.width) * scene.height,
                                             static_cast<int>(wish.panes.size()));
-        scene.width = (scene.width + report.divisor - 1) / report.divisor;
-        scene.height = (scene.height + report.divisor - 1) / report.divisor;
+        scene.width = static_cast<int>(std::ceil(scene.width / report.divisor));
+        scene.height = static_cast<int>(std::ceil(scene.height / report.divisor));
         const int side = side_of(fineness);
         report.samples = side * side;
-        put_columns(draw_frame(wish, scene, side, picture), report.divisor, columns, picture.frame);
+        put_columns(draw_frame(wish, scene, side, picture), columns, picture.frame);
         report.ms = ms_since(start);
         m_pace.took(pace, static_cast<double>(scene.width) * scene.height * report.samples,
                     report.ms, picture.stats.geometry_ms);

@@ -44,7 +44,7 @@ enum class Fineness {
 struct PaneReport {
     std::string machine;
     double ms = 0.0;
-    int divisor = 1;  ///< of the sides
+    double divisor = 1.0;  ///< of the sides
     int samples = 1;
     std::string error;  ///< why there is nothing to see; empty: there is
 };

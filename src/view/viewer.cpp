@@ -18,8 +18,8 @@
 namespace burnish::view {
 namespace {
 
-/// Sixty frames a second with a little to spare.
-constexpr double kBudgetMs = 14.0;
+/// Sixty frames a second.
+constexpr double kBudgetMs = 16.5;
 /// Files are looked at so often.
 constexpr double kWatchMs = 250.0;
 /// A hand that moved less has clicked.

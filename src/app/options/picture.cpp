@@ -79,9 +79,10 @@ OptionGroup material_options(PictureOptions& picture) {
               .normal = "the material's",
               .words = mip_method_names(),
               .open_words = true,
-              .set = [&picture](const std::string& option, const std::string& text) {
-                  picture.mipmaps = parse_mipmaps(option, text);
-              }},
+              .set =
+                  [&picture](const std::string& option, const std::string& text) {
+                      picture.mipmaps = parse_mipmaps(option, text);
+                  }},
              {.names = "--max-anisotropy",
               .value = "N",
               .text = "Most probes along the longer axis of what a pixel covers, 1 .. 16, of every "
