@@ -18,8 +18,8 @@
 namespace burnish::view {
 namespace {
 
-/// Sixty frames a second.
-constexpr double kBudgetMs = 16.5;
+/// A picture smaller than the window looks worse than fifty frames a second.
+constexpr double kBudgetMs = 20.0;
 /// Files are looked at so often.
 constexpr double kWatchMs = 250.0;
 /// A hand that moved less has clicked.
