@@ -59,7 +59,8 @@ struct Picture {
     std::vector<PaneReport> panes;
     FrameStats stats;  ///< of the first pane that was drawn
     double ms = 0.0;   ///< of everything
-    /// Of the wish's pixel, with fineness `full` alone.
+    /// Of the wish's pixel; PictureMaker makes it with fineness `full` alone, finer pictures have
+    /// the same.
     std::shared_ptr<const PixelTrace> trace;
     std::string trace_error;
 };

@@ -54,8 +54,18 @@ void PictureThread::deliver(Picture picture) {
 void PictureThread::run() {
     while (std::optional<Wish> wish = next_wish()) {
         std::optional<Fineness> fineness = Fineness::within_budget;
+        std::shared_ptr<const PixelTrace> trace;
+        std::string trace_error;
         while (fineness) {
             Picture picture = m_maker.make(*wish, *fineness);
+            // Kept here: a finer picture may come before the window took the one with the trace.
+            if (*fineness == Fineness::full) {
+                trace = picture.trace;
+                trace_error = picture.trace_error;
+            } else if (*fineness > Fineness::full) {
+                picture.trace = trace;
+                picture.trace_error = trace_error;
+            }
             fineness = finer(*wish, picture);
             picture.is_last = !fineness;
             deliver(std::move(picture));

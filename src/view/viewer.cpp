@@ -301,10 +301,6 @@ void Viewer::ask_for_picture() {
 void Viewer::take_picture() {
     std::optional<Picture> picture = m_pictures.take();
     if (!picture) return;
-    if (m_picture && m_picture->id == picture->id && picture->fineness > Fineness::full) {
-        picture->trace = std::move(m_picture->trace);
-        picture->trace_error = std::move(m_picture->trace_error);
-    }
     m_picture = std::move(picture);
     m_draws = std::max(m_draws, m_picture->is_last ? kDrawsAfterEvent : 1);
     if (m_picture->fineness == Fineness::within_budget)
