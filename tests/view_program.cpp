@@ -64,6 +64,23 @@ Framebuffer drawn(const Scene& scene) {
     return frame;
 }
 
+int channel(const Framebuffer& frame, const glm::ivec2& pixel, std::size_t c) {
+    return std::to_integer<int>(frame.row(pixel.y)[4 * static_cast<std::size_t>(pixel.x) + c]);
+}
+
+/// Where r differs most.
+glm::ivec2 most_different(const Framebuffer& a, const Framebuffer& b) {
+    glm::ivec2 found{0, 0};
+    int most = -1;
+    for (int i = 0; i < a.width() * a.height(); ++i) {
+        const glm::ivec2 pixel{i % a.width(), i / a.width()};
+        const int difference = std::abs(channel(a, pixel, 0) - channel(b, pixel, 0));
+        if (difference > most) found = pixel;
+        most = std::max(most, difference);
+    }
+    return found;
+}
+
 /// What the panel does: the text of the model's program becomes another one.
 void edit(Session& session, const std::string& material, const std::string& from,
           const std::string& to) {
@@ -118,16 +135,16 @@ TEST_F(ViewProgram, AnEditIsDrawnTracedAndMeasuredTheSame) {
     edit(session, "steel", "out.rgb = ", kDiffuse);
     const Scene edited = *session.wish(false)->scene;
     const Framebuffer frame = drawn(edited);
-    EXPECT_FALSE(are_same(frame, plain));
-    const PixelTrace trace = trace_pixel(edited, 24, 12);
-    const auto* at = frame.row(12) + 4 * 24;
-    for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(trace.stored[c], std::to_integer<int>(at[c]));
+    const glm::ivec2 pixel = most_different(frame, plain);
+    const PixelTrace trace = trace_pixel(edited, pixel.x, pixel.y);
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(trace.stored[c], channel(frame, pixel, c));
     ASSERT_TRUE(trace.fragment);
     EXPECT_SAYS(trace.fragment->stages.back().text, "out.rgb = col1;");
     const Framebuffer exact = lab::render_with_bits(edited, {}, 1);
-    const auto* number = reinterpret_cast<const float*>(exact.row(12)) + 4 * 24;
+    const auto* number = reinterpret_cast<const float*>(exact.row(pixel.y)) + 4 * pixel.x;
     for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_NEAR(number[c], trace.stored[c] / 255.0, 1.5 / 255.0);
+        EXPECT_NEAR(255.0 * number[c], channel(frame, pixel, c), 1.5);
+    EXPECT_GT(channel(plain, pixel, 0), channel(frame, pixel, 0) + 50) << "nothing was edited";
 }
 
 TEST_F(ViewProgram, AnErrorLeavesTheLastRightTextAndRevertTheModels) {
