@@ -7,6 +7,7 @@
 
 #include "geometry/clip.hpp"
 #include "machine/show_register.hpp"
+#include "models/edited_program.hpp"
 
 namespace burnish {
 
@@ -177,9 +178,13 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t
     const glm::vec3 color = source.color * source.intensity;
     const glm::vec3 ambient = light == 0 ? scene.ambient : glm::vec3(0.0F);
     // Maps that were made for the talk's model are its material layer.
-    if (material->model == Model::abp_modified && material->tangent_map && !material->mipmaps)
-        return compile_abp_modified(*material, machine, color, ambient, maps);
-    return maps.models.get(material, machine, color, ambient).program;
+    const bool has_maps =
+        material->model == Model::abp_modified && material->tangent_map && !material->mipmaps;
+    ProgramMaterial program = has_maps
+                                  ? compile_abp_modified(*material, machine, color, ambient, maps)
+                                  : maps.models.get(material, machine, color, ambient).program;
+    apply_edit(object, machine, light, program);
+    return program;
 }
 
 void prepare_draw(Draw& draw, const FrameView& frame, const Object& object, DerivedMaps& maps) {

@@ -172,6 +172,14 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) 
     return render_shown(scene, target, std::nullopt, shown);
 }
 
+ProgramMaterial Renderer::program(const Scene& scene, std::size_t object) {
+    require_machine(scene, "a program");
+    scene.machine.validate();
+    Object own = scene.objects.at(object);
+    own.edited = nullptr;
+    return program_of(own, scene, 0, m_state->maps);
+}
+
 /// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
 /// the memory cap, as many as fit; then the tiles are drawn and the next ones follow.
 FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,

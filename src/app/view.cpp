@@ -54,6 +54,7 @@ void run(const ViewOptions& options) {
     request.renderer.isa = options.picture.isa;
     request.load_state = options.load_state;
     request.save_state = options.save_state;
+    request.quiet = options.picture.quiet;
     request.report = options.picture.verbose;
     load_viewer()(request);
 }

@@ -81,9 +81,9 @@ void read_split(const Section& root, ViewState& state) {
 }
 
 MaterialEdit read_edit(const toml::table& table) {
-    const Section section(
-        table, "[[materials]]",
-        {"name", "model", "kd", "ks", "alpha_x", "alpha_y", "exponent", "combiners_text"});
+    const Section section(table, "[[materials]]",
+                          {"name", "model", "kd", "ks", "alpha_x", "alpha_y", "exponent",
+                           "combiners_text", "compiled_text"});
     constexpr Range kWidth{.low = 0.0, .high = 1.0, .open_low = true};
     MaterialEdit edit;
     edit.name = section.required_text("name");
@@ -95,6 +95,8 @@ MaterialEdit read_edit(const toml::table& table) {
     edit.alpha_y = section.number("alpha_y", kWidth);
     edit.exponent = section.number("exponent", kPositive);
     edit.combiners = section.text("combiners_text");
+    edit.compiled = section.text("compiled_text");
+    section.refuse_without("compiled_text", "combiners_text");
     return edit;
 }
 

@@ -14,6 +14,7 @@
 #include "core/cpu.hpp"
 #include "draw.hpp"
 #include "models/compile_model.hpp"
+#include "models/edited_program.hpp"
 #include "raster/bin.hpp"
 #include "raster/tile.hpp"
 #include "shade/normalisation_cube.hpp"
@@ -98,9 +99,11 @@ FineProgram fine_program(const Object& object, const Scene& scene, std::size_t l
     if (material.program || has_maps || !std::holds_alternative<Mesh>(object.geometry))
         return {program_of(object, scene, light, maps), {}};
     const Light source = scene.lights.empty() ? Light{.intensity = 0.0F} : scene.lights[light];
+    const Machine machine = scene.machine.for_programs();
     CompiledModel model = ModelCompiler(material).compile(
-        scene.machine.for_programs(), source.color * source.intensity,
-        light == 0 ? scene.ambient : glm::vec3(0.0F), TexelPrecision::fine);
+        machine, source.color * source.intensity, light == 0 ? scene.ambient : glm::vec3(0.0F),
+        TexelPrecision::fine);
+    apply_edit(object, machine, light, model.program);
     return {std::move(model.program), std::move(model.tables)};
 }
 

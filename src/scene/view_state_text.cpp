@@ -69,6 +69,7 @@ std::string edit_text(const MaterialEdit& edit) {
     if (edit.alpha_y) text += fmt::format("alpha_y = {}\n", number(*edit.alpha_y));
     if (edit.exponent) text += fmt::format("exponent = {}\n", number(*edit.exponent));
     if (edit.combiners) text += fmt::format("combiners_text = {}\n", toml_string(*edit.combiners));
+    if (edit.compiled) text += fmt::format("compiled_text = {}\n", toml_string(*edit.compiled));
     return text;
 }
 

@@ -1,8 +1,12 @@
 #include "view/edited_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
+#include <utility>
+#include <variant>
 
 #include "view/orbit.hpp"
 
@@ -13,14 +17,6 @@ const MaterialEdit* edit_named(const ViewState& state, const std::string& name) 
     const auto found = std::find_if(state.materials.begin(), state.materials.end(),
                                     [&](const MaterialEdit& edit) { return edit.name == name; });
     return found == state.materials.end() ? nullptr : &*found;
-}
-
-/// What makes two edits the same: their text.
-std::string text_of(const MaterialEdit* edit, const std::optional<MaterialMipmaps>& mipmaps) {
-    ViewState only;
-    if (edit != nullptr) only.materials.push_back(*edit);
-    only.mipmaps = mipmaps;
-    return view_state_text(only);
 }
 
 void apply_model(const MaterialEdit& edit, Material& material) {
@@ -40,52 +36,112 @@ void apply_model(const MaterialEdit& edit, Material& material) {
     material.exponent = edit.exponent.value_or(material.exponent);
 }
 
-/// False, with the reasons, for a text that is no program.
-bool apply_combiners(const MaterialEdit& edit, Material& material,
-                     std::vector<ProgramError>& errors) {
-    const Parsed<CombinerProgram> parsed = parse_combiners(*edit.combiners);
+/// Nothing, with the reasons, for a text that is no program.
+std::optional<CombinerProgram> program_of(const std::string& text, const std::string& material,
+                                          std::vector<ProgramError>& errors) {
+    Parsed<CombinerProgram> parsed = parse_combiners(text);
     for (const TextError& error : parsed.errors)
-        errors.push_back({edit.name, error.line, error.column, error.message});
-    if (!parsed.program) return false;
-    const CombinerProgram before = material.program->combiners;
-    material.program->combiners = *parsed.program;
+        errors.push_back({material, error.line, error.column, error.message});
+    return std::move(parsed.program);
+}
+
+/// The pipeline with another text; null for one that is no program.
+std::shared_ptr<const Material> edited_pipeline(const MaterialEdit& edit, const Material& loaded,
+                                                std::vector<ProgramError>& errors) {
+    const std::optional<CombinerProgram> program = program_of(*edit.combiners, edit.name, errors);
+    if (!program) return nullptr;
+    Material material = loaded;
+    CombinerProgram& combiners = material.program->combiners;
     // What no text can say stays as it was.
-    material.program->combiners.fog = before.fog;
-    material.program->combiners.mux_bit = before.mux_bit;
-    return true;
+    const CombinerProgram before = std::exchange(combiners, *program);
+    combiners.fog = before.fog;
+    combiners.mux_bit = before.mux_bit;
+    return std::make_shared<const Material>(std::move(material));
+}
+
+/// A model's program with another text; null for one that is no program.
+std::shared_ptr<const EditedProgram> edited_program(const MaterialEdit& edit,
+                                                    std::vector<ProgramError>& errors) {
+    if (!edit.compiled) {
+        errors.push_back({edit.name, 1, 1, "of a model, expected 'compiled_text' beside it"});
+        return nullptr;
+    }
+    std::vector<ProgramError> own_errors;
+    const auto own = program_of(*edit.compiled, edit.name, own_errors);
+    for (const ProgramError& error : own_errors)
+        errors.push_back({edit.name, 1, 1,
+                          fmt::format("'compiled_text', line {}: {}", error.line, error.message)});
+    const auto program = program_of(*edit.combiners, edit.name, errors);
+    if (!own || !program) return nullptr;
+    return std::make_shared<const EditedProgram>(EditedProgram{*own, *program});
+}
+
+/// The model and its parameters alone.
+MaterialEdit without_program(MaterialEdit edit) {
+    edit.combiners.reset();
+    edit.compiled.reset();
+    return edit;
+}
+
+/// Null: the loaded one.
+std::shared_ptr<const Material> edited_model(const MaterialEdit& edit, const Material& loaded,
+                                             const std::optional<MaterialMipmaps>& mipmaps) {
+    if (without_program(edit) == MaterialEdit{.name = edit.name} && !mipmaps) return nullptr;
+    Material material = loaded;
+    apply_model(edit, material);
+    if (mipmaps) {
+        const int probes = material.mipmaps ? material.mipmaps->max_anisotropy : 1;
+        material.mipmaps = mipmaps;
+        material.mipmaps->max_anisotropy = probes;
+    }
+    return std::make_shared<const Material>(std::move(material));
 }
 
 }  // namespace
 
+std::shared_ptr<const Material> material_of(const Object& object) {
+    static const auto kDefault = std::make_shared<const Material>();
+    if (object.material || !std::holds_alternative<Mesh>(object.geometry)) return object.material;
+    return kDefault;
+}
+
+void EditedMaterials::update(Kept& kept, const Material& loaded, const MaterialEdit& edit,
+                             const std::optional<MaterialMipmaps>& mipmaps) {
+    if (kept.edit == edit && kept.mipmaps == mipmaps) return;
+    const MaterialEdit before = std::exchange(kept.edit, edit);
+    const bool same_mipmaps = std::exchange(kept.mipmaps, mipmaps) == mipmaps;
+    kept.errors.clear();
+    if (loaded.program) {
+        auto material = edit.combiners ? edited_pipeline(edit, loaded, kept.errors) : nullptr;
+        if (kept.errors.empty()) kept.material = std::move(material);
+        return;
+    }
+    if (without_program(before) != without_program(edit) || !same_mipmaps)
+        kept.material = edited_model(edit, loaded, mipmaps);
+    auto program = edit.combiners ? edited_program(edit, kept.errors) : nullptr;
+    if (kept.errors.empty()) kept.program = std::move(program);
+}
+
 void EditedMaterials::apply(const ViewState& state, Scene& scene,
                             std::vector<ProgramError>& errors) {
     for (Object& object : scene.objects) {
-        if (!object.material) continue;
-        const Material& loaded = *object.material;
-        const MaterialEdit* edit = edit_named(state, loaded.name);
-        const auto mipmaps = loaded.program ? std::nullopt : state.mipmaps;
-        if (edit == nullptr && !mipmaps) continue;
-        Kept& kept = m_kept[&loaded];
-        std::string text = text_of(edit, mipmaps);
-        const bool is_program = edit != nullptr && edit->combiners && loaded.program;
-        if (!kept.material || kept.edit != text || is_program) {
-            Material material = loaded;
-            bool right = true;
-            if (edit != nullptr && is_program)
-                right = apply_combiners(*edit, material, errors);
-            else if (edit != nullptr)
-                apply_model(*edit, material);
-            if (mipmaps) {
-                const int probes = material.mipmaps ? material.mipmaps->max_anisotropy : 1;
-                material.mipmaps = mipmaps;
-                material.mipmaps->max_anisotropy = probes;
-            }
-            if (right && kept.edit != text) {
-                kept.material = std::make_shared<const Material>(std::move(material));
-                kept.edit = std::move(text);
-            }
+        const std::shared_ptr<const Material> loaded = material_of(object);
+        if (!loaded) continue;
+        const MaterialEdit* edit = edit_named(state, loaded->name);
+        const auto mipmaps = loaded->program ? std::nullopt : state.mipmaps;
+        if (edit == nullptr && !mipmaps) {
+            m_kept.erase(loaded.get());
+            continue;
         }
+        Kept& kept = m_kept[loaded.get()];
+        update(kept, *loaded, edit == nullptr ? MaterialEdit{.name = loaded->name} : *edit,
+               mipmaps);
         if (kept.material) object.material = kept.material;
+        object.edited = kept.program;
+        const bool told = std::any_of(errors.begin(), errors.end(), [&](const ProgramError& each) {
+            return each.material == loaded->name;
+        });
+        if (!told) errors.insert(errors.end(), kept.errors.begin(), kept.errors.end());
     }
 }
 

@@ -20,18 +20,28 @@ struct ProgramError {
 /// Keeps materials that did not change, so that what the renderer prepared of them stays of use.
 class EditedMaterials {
   public:
-    /// Puts the state's materials in place of the scene's. What is wrong with a program leaves the
-    /// last right one in place and goes to `errors`.
+    /// Puts the state's materials and programs in place of the scene's. What is wrong with a
+    /// program leaves the last right one in place and goes to `errors`.
     void apply(const ViewState& state, Scene& scene, std::vector<ProgramError>& errors);
     void forget() { m_kept.clear(); }
 
   private:
+    /// What became of an edit.
     struct Kept {
-        std::string edit;  ///< as text
-        std::shared_ptr<const Material> material;
+        MaterialEdit edit;
+        std::optional<MaterialMipmaps> mipmaps;
+        std::shared_ptr<const Material> material;      ///< null: the loaded one
+        std::shared_ptr<const EditedProgram> program;  ///< of a model; null: its own
+        std::vector<ProgramError> errors;
     };
+    static void update(Kept& kept, const Material& loaded, const MaterialEdit& edit,
+                       const std::optional<MaterialMipmaps>& mipmaps);
+
     std::map<const Material*, Kept> m_kept;  ///< by the loaded one
 };
+
+/// The object's material, a mesh's without one the default; null for other objects without one.
+std::shared_ptr<const Material> material_of(const Object& object);
 
 /// What is drawn: camera, light, materials and machine of the state in a copy of `loaded`, at the
 /// state's size. Throws Error{bad_option} for a machine that cannot be.

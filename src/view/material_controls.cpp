@@ -32,16 +32,13 @@ void edit_model(const Material& loaded, MaterialEdit& edit) {
     edit_number("N", loaded.exponent, 1.0F, 1024.0F, edit.exponent);
 }
 
-bool is_untouched(const MaterialEdit& edit) {
-    return !edit.model && !edit.kd && !edit.ks && !edit.alpha_x && !edit.alpha_y &&
-           !edit.exponent && !edit.combiners;
-}
-
 }  // namespace
 
 void material_controls(Session& session) {
     int number = 0;
-    for (const Material* material : session.materials()) {
+    if (session.materials().empty())
+        ImGui::TextUnformatted("raw vertices without a material:\nthere is nothing to choose");
+    for (const std::shared_ptr<const Material>& material : session.materials()) {
         ImGui::PushID(number++);
         const bool open = ImGui::CollapsingHeader(material->name.c_str(),
                                                   number == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
@@ -50,10 +47,8 @@ void material_controls(Session& session) {
         } else if (open) {
             MaterialEdit& edit = session.edit_of(material->name);
             edit_model(*material, edit);
-            if (!is_untouched(edit) && ImGui::Button("as loaded"))
-                session.forget_edit(material->name);
-            else if (is_untouched(edit))
-                session.forget_edit(material->name);
+            const bool is_untouched = edit == MaterialEdit{.name = material->name};
+            if (is_untouched || ImGui::Button("as loaded")) session.forget_edit(material->name);
         }
         ImGui::PopID();
     }

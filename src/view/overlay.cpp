@@ -48,10 +48,12 @@ void picture_overlay(const Session& session, const Picture* picture) {
         label(list, ImVec2(std::min(300.0F, size.x * 0.25F), y), kWrong, text, width);
         y += ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + 8.0F;
     };
-    if (!session.message.empty()) complain(session.message);
-    if (picture != nullptr)
-        for (const PaneReport& pane : picture->panes)
-            if (!pane.error.empty()) complain(pane.error);
+    for (const std::string& message : {session.message, session.wish_message})
+        if (!message.empty()) complain(message);
+    if (picture == nullptr) return;
+    for (const PaneReport& pane : picture->panes)
+        for (const std::string& message : {pane.error, pane.note})
+            if (!message.empty()) complain(message);
 }
 
 void key_list_panel(OpenPanels& open) {

@@ -98,6 +98,16 @@ bool has_bits(const Wish& wish, const Machine& machine) {
     return !wish.bits.empty() && !machine.double_precision;
 }
 
+/// False if no program was edited.
+bool drop_edits(Scene& scene) {
+    bool dropped = false;
+    for (Object& object : scene.objects) {
+        dropped = dropped || object.edited;
+        object.edited = nullptr;
+    }
+    return dropped;
+}
+
 int side_of(Fineness fineness) {
     return fineness == Fineness::smooth ? 2 : fineness == Fineness::smoothest ? 4 : 1;
 }
@@ -142,6 +152,20 @@ Framebuffer PictureMaker::draw_frame(const Wish& wish, const Scene& scene, int s
     return frame;
 }
 
+Framebuffer PictureMaker::draw_with_edits(const Wish& wish, Scene& scene, int side,
+                                          PaneReport& report, Picture& picture) {
+    std::string note;
+    try {
+        return draw_frame(wish, scene, side, picture);
+    } catch (const Error& error) {
+        if (!drop_edits(scene)) throw;
+        note = error.what();
+    }
+    Framebuffer frame = draw_frame(wish, scene, side, picture);
+    report.note = note;
+    return frame;
+}
+
 void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t index,
                              Picture& picture) {
     const Pane& pane = wish.panes[index];
@@ -163,7 +187,7 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         scene.height = static_cast<int>(std::ceil(scene.height / report.divisor));
         const int side = side_of(fineness);
         report.samples = side * side;
-        put_columns(draw_frame(wish, scene, side, picture), columns, picture.frame);
+        put_columns(draw_with_edits(wish, scene, side, report, picture), columns, picture.frame);
         report.ms = ms_since(start);
         m_pace.took(pace, static_cast<double>(scene.width) * scene.height * report.samples,
                     report.ms, picture.stats.geometry_ms);
@@ -183,13 +207,21 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     picture.panes.resize(wish.panes.size());
     for (std::size_t i = wish.panes.size(); i-- > 0;) draw_pane(wish, fineness, i, picture);
     picture.ms = ms_since(start);
+    if (wish.programs) {
+        Scene scene = *wish.scene;
+        // As its pane has it, which may draw programs in passes.
+        for (const Pane& pane : wish.panes)
+            if (pane.machine.name == scene.machine.name) scene.machine = pane.machine;
+        picture.programs = programs_of_models(renderer_for(wish.renderer), scene);
+    }
     if (!wish.pixel || fineness != Fineness::full) return picture;
     try {
         Scene scene = *wish.scene;
-        for (const Pane& pane : wish.panes) {
-            const Columns columns = columns_of(pane, scene.width);
-            if (wish.pixel->x >= columns.from && wish.pixel->x < columns.to)
-                scene.machine = pane.machine;
+        for (std::size_t i = 0; i < wish.panes.size(); ++i) {
+            const Columns columns = columns_of(wish.panes[i], scene.width);
+            if (wish.pixel->x < columns.from || wish.pixel->x >= columns.to) continue;
+            scene.machine = wish.panes[i].machine;
+            if (!picture.panes[i].note.empty()) drop_edits(scene);
         }
         picture.trace =
             std::make_shared<const PixelTrace>(trace_pixel(scene, wish.pixel->x, wish.pixel->y));

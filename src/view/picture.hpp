@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "view/material_program.hpp"
 #include "view/pace.hpp"
 
 /// From a scene to the picture of a window, in one or several panes.
@@ -29,6 +30,7 @@ struct Wish {
     float gain = 1.0F;                   ///< of the differences
     std::string bits;                    ///< of lab::set_stage_bits; empty: the machine's numbers
     std::optional<glm::ivec2> pixel;     ///< to be traced
+    bool programs = false;               ///< those of models as text
     bool moving = false;                 ///< more wishes are to be expected
     RendererOptions renderer;
 };
@@ -47,6 +49,7 @@ struct PaneReport {
     double divisor = 1.0;  ///< of the sides
     int samples = 1;
     std::string error;  ///< why there is nothing to see; empty: there is
+    std::string note;   ///< why a model's own program is seen, not the edited one; empty: it is not
 };
 
 struct Picture {
@@ -63,6 +66,7 @@ struct Picture {
     /// the same.
     std::shared_ptr<const PixelTrace> trace;
     std::string trace_error;
+    std::vector<MaterialProgram> programs;  ///< if the wish asks for them
 };
 
 /// Renders with `side` x `side` samples per pixel, a machine's samples averaged.
@@ -85,6 +89,9 @@ class PictureMaker {
     /// What a pane shows, rgba8, at the scene's size.
     Framebuffer draw_frame(const Wish& wish, const Scene& scene, int side, Picture& picture);
     void draw_pane(const Wish& wish, Fineness fineness, std::size_t index, Picture& picture);
+    /// With the edited programs of `scene`, or with the models' own if one of them does not run.
+    Framebuffer draw_with_edits(const Wish& wish, Scene& scene, int side, PaneReport& report,
+                                Picture& picture);
     Renderer& renderer_for(const RendererOptions& options);
 
     DrawSamples m_draw;

@@ -6,7 +6,6 @@
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 
-#include "models/compile_model.hpp"
 #include "view/panels.hpp"
 
 namespace burnish::view {
@@ -36,47 +35,74 @@ void line_numbers(const std::string& text, const std::vector<ProgramError>& erro
     ImGui::EndGroup();
 }
 
+void wrapped_error(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, kErrorColor);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void show_errors(const Session& session, const std::string& material) {
+    for (const ProgramError& error : session.program_errors) {
+        if (error.material != material) continue;
+        wrapped_error(
+            fmt::format("line {}, column {}: {}", error.line, error.column, error.message));
+    }
+}
+
+/// A text with the numbers of its lines. True where a hand changed it.
+bool edit_text(const Session& session, const std::string& material, std::string& text) {
+    show_errors(session, material);
+    std::size_t lines = 2;
+    for (const char c : text) lines += c == '\n' ? 1 : 0;
+    line_numbers(text, session.program_errors, material);
+    ImGui::SameLine();
+    const ImVec2 size(-1.0F, static_cast<float>(lines) * ImGui::GetTextLineHeight() + 8.0F);
+    return ImGui::InputTextMultiline("##program", &text, size);
+}
+
 void edit_pipeline(Session& session, const Material& material) {
-    std::string printed;
+    std::string text;
+    const MaterialEdit* edit = session.find_edit(material.name);
+    const bool is_edited = edit != nullptr && edit->combiners;
     try {
-        printed = print_combiners(material.program->combiners);
+        text = is_edited ? *edit->combiners : print_combiners(material.program->combiners);
     } catch (const Error& error) {
         ImGui::TextWrapped("%s", error.what());
         return;
     }
-    const MaterialEdit* edit = nullptr;
-    for (const MaterialEdit& each : session.state.materials)
-        if (each.name == material.name && each.combiners) edit = &each;
-    std::string text = edit == nullptr ? printed : *edit->combiners;
-    for (const ProgramError& error : session.program_errors)
-        if (error.material == material.name)
-            ImGui::TextColored(kErrorColor, "line %zu, column %zu: %s", error.line, error.column,
-                               error.message.c_str());
-    std::size_t lines = 2;
-    for (const char c : text) lines += c == '\n' ? 1 : 0;
-    line_numbers(text, session.program_errors, material.name);
-    ImGui::SameLine();
-    const ImVec2 size(-1.0F, static_cast<float>(lines) * ImGui::GetTextLineHeight() + 8.0F);
-    if (ImGui::InputTextMultiline("##program", &text, size))
-        session.edit_of(material.name).combiners = text;
-    if (edit != nullptr && ImGui::Button("as loaded")) session.forget_edit(material.name);
+    if (edit_text(session, material.name, text)) session.edit_of(material.name).combiners = text;
+    if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
 }
 
-/// What a reflectance model becomes on the machine that is looked at.
-void show_model(const Session& session, const Material& material) {
-    try {
-        Machine machine = session.state.machine.empty() ? session.loaded().machine
-                                                        : machine_profile(session.state.machine);
-        if (machine.double_precision) {
-            ImGui::TextUnformatted("double precision has formulas, no program");
-            return;
-        }
-        machine.multipass = true;
-        const CompiledModel compiled = compile_model(material, machine_for(session.state, machine),
-                                                     glm::vec3(1.0F), session.loaded().ambient);
-        ImGui::TextUnformatted(print_combiners(compiled.program.combiners).c_str());
-    } catch (const Error& error) {
-        ImGui::TextWrapped("%s", error.what());
+/// What the model is compiled to for the last picture; null until it is known.
+const MaterialProgram* own_program(const Picture* picture, const std::string& material) {
+    if (picture == nullptr) return nullptr;
+    const auto& programs = picture->programs;
+    const auto found =
+        std::find_if(programs.begin(), programs.end(),
+                     [&](const MaterialProgram& each) { return each.material == material; });
+    return found == programs.end() ? nullptr : &*found;
+}
+
+void edit_model(Session& session, const Material& material, const Picture* picture) {
+    const MaterialProgram* own = own_program(picture, material.name);
+    const MaterialEdit* edit = session.find_edit(material.name);
+    const bool is_edited = edit != nullptr && edit->combiners;
+    if (!is_edited && (own == nullptr || !own->error.empty())) {
+        ImGui::TextWrapped("%s", own == nullptr ? "..." : own->error.c_str());
+        return;
+    }
+    std::string text = is_edited ? *edit->combiners : own->text;
+    if (edit_text(session, material.name, text)) {
+        MaterialEdit& changed = session.edit_of(material.name);
+        if (!changed.combiners) changed.compiled = own->text;
+        changed.combiners = text;
+    }
+    if (!is_edited) return;
+    if (ImGui::Button("revert")) session.revert_program(material.name);
+    if (own != nullptr && ImGui::TreeNode("the model's own")) {
+        ImGui::TextUnformatted(own->error.empty() ? own->text.c_str() : own->error.c_str());
+        ImGui::TreePop();
     }
 }
 
@@ -88,18 +114,20 @@ void program_panel(Session& session, const Picture* picture) {
     ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.7F * display.y),
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("program")) {
-        if (picture != nullptr)
+        if (picture != nullptr) {
             for (const PaneReport& pane : picture->panes)
-                if (!pane.error.empty()) ImGui::TextColored(kErrorColor, "%s", pane.error.c_str());
+                for (const std::string& text : {pane.error, pane.note})
+                    if (!text.empty()) wrapped_error(text);
+        }
         int number = 0;
-        for (const Material* material : session.materials()) {
+        for (const std::shared_ptr<const Material>& material : session.materials()) {
             ImGui::PushID(number++);
             if (ImGui::CollapsingHeader(material->name.c_str(),
                                         number == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
                 if (material->program)
                     edit_pipeline(session, *material);
                 else
-                    show_model(session, *material);
+                    edit_model(session, *material, picture);
             }
             ImGui::PopID();
         }

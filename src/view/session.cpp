@@ -108,9 +108,10 @@ std::optional<Wish> Session::wish(bool moving) {
         wish.scene = std::make_shared<const Scene>(
             edited_scene(m_loaded, state, m_materials, program_errors));
     } catch (const Error& error) {
-        message = error.what();
+        wish_message = error.what();
         return std::nullopt;
     }
+    wish_message.clear();
     wish.id = ++m_wishes;
     if (state.split) {
         const std::vector<Machine> machines = split_machines();
@@ -127,6 +128,7 @@ std::optional<Wish> Session::wish(bool moving) {
     wish.pixel = state.pixel;
     if (wish.pixel && (wish.pixel->x >= state.width || wish.pixel->y >= state.height))
         wish.pixel.reset();
+    wish.programs = shows_programs;
     wish.moving = moving;
     wish.renderer = renderer;
     return wish;
@@ -135,21 +137,36 @@ std::optional<Wish> Session::wish(bool moving) {
 MaterialEdit& Session::edit_of(const std::string& material) {
     for (MaterialEdit& edit : state.materials)
         if (edit.name == material) return edit;
-    MaterialEdit edit;
-    edit.name = material;
-    return state.materials.emplace_back(std::move(edit));
+    return state.materials.emplace_back(MaterialEdit{.name = material});
+}
+
+const MaterialEdit* Session::find_edit(const std::string& material) const {
+    const auto found =
+        std::find_if(state.materials.begin(), state.materials.end(),
+                     [&](const MaterialEdit& edit) { return edit.name == material; });
+    return found == state.materials.end() ? nullptr : &*found;
+}
+
+void Session::revert_program(const std::string& material) {
+    MaterialEdit& edit = edit_of(material);
+    edit.combiners.reset();
+    edit.compiled.reset();
+    if (edit == MaterialEdit{.name = material}) forget_edit(material);
 }
 
 void Session::forget_edit(const std::string& material) {
     std::erase_if(state.materials, [&](const MaterialEdit& edit) { return edit.name == material; });
 }
 
-std::vector<const Material*> Session::materials() const {
-    std::vector<const Material*> found;
+std::vector<std::shared_ptr<const Material>> Session::materials() const {
+    std::vector<std::shared_ptr<const Material>> found;
     for (const Object& object : m_loaded.objects) {
-        const Material* material = object.material.get();
-        if (material != nullptr && std::find(found.begin(), found.end(), material) == found.end())
-            found.push_back(material);
+        const std::shared_ptr<const Material> material = material_of(object);
+        if (!material) continue;
+        const bool seen = std::any_of(found.begin(), found.end(), [&](const auto& each) {
+            return each->name == material->name;
+        });
+        if (!seen) found.push_back(material);
     }
     return found;
 }

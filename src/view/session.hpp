@@ -17,7 +17,7 @@ namespace burnish::view {
 using LoadScene = std::function<Scene(const std::filesystem::path&)>;
 
 /// What is looked at and how: all of the viewer but its window. What cannot be done leaves
-/// everything as it was and says so in `message`.
+/// everything as it was and says so in `message` or `wish_message`.
 class Session {
   public:
     /// `load` reads a scene or mesh; throws Error.
@@ -42,22 +42,30 @@ class Session {
     void zoom(float factor);
     void turn_light(float right, float down);
 
-    /// What a picture of all this is made from. Nothing if it cannot be: `message` says why.
+    /// What a picture of all this is made from. Nothing if it cannot be: `wish_message` says why,
+    /// until one can be.
     [[nodiscard]] std::optional<Wish> wish(bool moving);
 
     /// The edit of the material with that name, made if need be.
     MaterialEdit& edit_of(const std::string& material);
+    /// Null if nothing was changed of it.
+    [[nodiscard]] const MaterialEdit* find_edit(const std::string& material) const;
     /// Forgets what was changed of it.
     void forget_edit(const std::string& material);
+    /// Forgets what was changed of its program alone.
+    void revert_program(const std::string& material);
 
     ViewState state;
     RendererOptions renderer;
-    std::string message;                       ///< the last thing that went wrong; empty: nothing
+    std::string message;          ///< what went wrong with the last file; empty: nothing
+    std::string wish_message;     ///< what went wrong with the last wish, likewise
+    bool shows_programs = false;  ///< wishes ask for the programs of models
     std::vector<ProgramError> program_errors;  ///< of the last wish
     [[nodiscard]] const Scene& loaded() const { return m_loaded; }
     [[nodiscard]] const Ball& ball() const { return m_ball; }
-    /// Materials of the scene, each once, in the order of the objects.
-    [[nodiscard]] std::vector<const Material*> materials() const;
+    /// Materials of the scene, each name once, in the order of the objects. Meshes without one
+    /// share the default.
+    [[nodiscard]] std::vector<std::shared_ptr<const Material>> materials() const;
     [[nodiscard]] float aspect() const;
 
   private:

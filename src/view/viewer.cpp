@@ -130,7 +130,7 @@ void Viewer::act(Action action) {
         case Action::previous_file:
             return m_session.step_file(-1);
         case Action::reload:
-            m_wished.clear();
+            m_asked.reset();
             return m_session.reload();
         case Action::split:
             state.split = !state.split;
@@ -183,7 +183,7 @@ void Viewer::handle_button(const SDL_MouseButtonEvent& event) {
     }
     const bool clicked = !m_dragged && !m_line && event.button == SDL_BUTTON_LEFT;
     if (clicked && !ImGui::GetIO().WantCaptureMouse) m_session.state.pixel = {event.x, event.y};
-    if (m_dragged) m_wished.clear();  // what was drawn in haste is drawn again
+    if (m_dragged) m_asked.reset();  // what was drawn in haste is drawn again
     m_dragged = false;
     m_line.reset();
 }
@@ -276,7 +276,7 @@ void Viewer::look_at_files() {
     m_looked_ms = now;
     if (!m_watch.changed()) return;
     m_watched.clear();
-    m_wished.clear();
+    m_asked.reset();
     m_draws = kDrawsAfterEvent;
     m_session.reload();
 }
@@ -286,11 +286,11 @@ void Viewer::ask_for_picture() {
     m_session.state.width = size.x;
     m_session.state.height = size.y;
     const bool moving = is_moving();
-    const std::string wished =
-        fmt::format("{}{} {} {}", view_state_text(m_session.state), m_session.renderer.threads,
-                    m_session.renderer.isa, moving);
-    if (wished == m_wished) return;
-    m_wished = wished;
+    m_session.shows_programs = m_open.program && m_panels;
+    Asked asked{m_session.state, m_session.renderer.threads, m_session.renderer.isa,
+                m_session.shows_programs, moving};
+    if (asked == m_asked) return;
+    m_asked = std::move(asked);
     m_draws = kDrawsAfterEvent;
     std::optional<Wish> wish = m_session.wish(moving);
     if (!wish) return;
@@ -325,7 +325,7 @@ void Viewer::save_screenshot() {
             save_image(m_window.shot(), name, text);
         else
             save_image(m_picture->frame, name, text);
-        fmt::print("{}\n", name.string());
+        if (!m_request.quiet) fmt::print("{}\n", name.string());
         std::fflush(stdout);
     } catch (const Error& error) {
         m_session.message = error.what();

@@ -51,8 +51,17 @@ class Viewer {
     OpenPanels m_open;
     std::optional<Picture> m_picture;
 
+    /// What a wish is made from, but for the input's own contents.
+    struct Asked {
+        ViewState state;
+        int threads;
+        std::string isa;
+        bool programs, moving;
+        friend bool operator==(const Asked&, const Asked&) = default;
+    };
+
     std::uint64_t m_wish = 0;         ///< number of the last wish
-    std::string m_wished;             ///< what the last wish was about, as text
+    std::optional<Asked> m_asked;     ///< what the last wish was about; nothing: ask again
     std::filesystem::path m_watched;  ///< the input whose files are watched
     double m_looked_ms = 0.0;         ///< when they were looked at
     int m_draws = 0;                  ///< frames until the panels have come to rest

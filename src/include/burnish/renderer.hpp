@@ -148,6 +148,12 @@ class Renderer {
     /// Error{bad_option}, too, with Machine::double_precision and for a frame of depths.
     FrameStats render(const Scene& scene, Framebuffer& target, Aov shown);
 
+    /// What draws the object of that number in the scene's first light: its material's program, or
+    /// the model's, compiled for the scene's machine unless this renderer's last frame had it.
+    /// Object::edited is not looked at. Throws what render throws of the material, and
+    /// Error{bad_option} with Machine::double_precision, which has formulas.
+    ProgramMaterial program(const Scene& scene, std::size_t object);
+
   private:
     FrameStats render_shown(const Scene& scene, Framebuffer& target,
                             const std::optional<ShownRegister>& shown, std::optional<Aov> aov);

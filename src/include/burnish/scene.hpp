@@ -27,6 +27,8 @@ struct Camera {
     float far = 100.0F;                   ///< > near
     std::optional<glm::mat4> view;        ///< world -> eye, instead of the vectors above
     std::optional<glm::mat4> projection;  ///< eye -> clip, instead of angle, near and far
+
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// A light. Directional when `position_w` is 0 (then `position` points towards the light), a point
@@ -264,12 +266,22 @@ struct RawVertices {
     std::vector<RawVertex> vertices;
 };
 
+/// A program to run instead of the one that a reflectance model is compiled to. What that one reads
+/// stays the model's: textures, coordinates, colours, and constants that both programs have.
+struct EditedProgram {
+    CombinerProgram own;      ///< what the model was compiled to when somebody edited it
+    CombinerProgram program;  ///< what became of it
+};
+
 /// One draw. Objects are drawn in the order of the scene.
 struct Object {
     std::variant<Mesh, RawVertices> geometry;
     std::shared_ptr<const Material> material;  ///< null: the default material
-    glm::mat4 world_from_object{1.0F};         ///< rotation, uniform scale, translation
+    glm::mat4 world_from_object{1.0F};  ///< rotation, uniform scale, translation
     RasterState raster;
+    /// Of a material with a model; null: the model's own program. A frame cannot be drawn where the
+    /// model is compiled to another program than EditedProgram::own, but for constants.
+    std::shared_ptr<const EditedProgram> edited = {};
 };
 
 /// Everything of a picture except the memory it goes to.

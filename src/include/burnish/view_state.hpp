@@ -14,11 +14,15 @@ namespace burnish {
 /// What somebody changed of a material while looking at it; what is not there is as loaded.
 struct MaterialEdit {
     std::string name;  ///< of the material in its scene
-    std::optional<Model> model;
-    std::optional<glm::vec3> kd, ks;        ///< [0, 1]
-    std::optional<float> alpha_x, alpha_y;  ///< (0, 1], instead of maps
-    std::optional<float> exponent;          ///< > 0, likewise
-    std::optional<std::string> combiners;   ///< a pipeline's program as text
+    std::optional<Model> model = {};
+    std::optional<glm::vec3> kd = {}, ks = {};        ///< [0, 1]
+    std::optional<float> alpha_x = {}, alpha_y = {};  ///< (0, 1], instead of maps
+    std::optional<float> exponent = {};               ///< > 0, likewise
+    std::optional<std::string> combiners = {};  ///< the program as text, of a pipeline or a model
+    /// Of a model: the text of what it was compiled to when `combiners` was made of it.
+    std::optional<std::string> compiled = {};
+
+    friend bool operator==(const MaterialEdit&, const MaterialEdit&) = default;
 };
 
 /// Everything that decides what the window of `burnish view` shows of its input: what one run
@@ -39,6 +43,8 @@ struct ViewState {
     float gain = 8.0F;                               ///< of the heat map, > 0
     std::optional<glm::ivec2> pixel;                 ///< that is traced
     std::vector<MaterialEdit> materials;
+
+    friend bool operator==(const ViewState&, const ViewState&) = default;
 };
 
 /// The state as TOML (docs/view.md), which load_view_state turns into the same state again.

@@ -1,0 +1,293 @@
+#include <algorithm>
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+#include <burnish/materials.hpp>
+#include <burnish/program_text.hpp>
+#include <burnish/trace.hpp>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+
+#include "lab/stage_bits.hpp"
+#include "tests/scene_file.hpp"
+#include "view/picture_thread.hpp"
+#include "view/session.hpp"
+
+/// Programs of models that a hand edited, from the text to the picture.
+namespace burnish::view {
+namespace {
+
+constexpr const char* kSphere = R"(
+[output]
+width = 48
+height = 32
+[[materials]]
+name = "steel"
+kd = [0.3, 0.2, 0.1]
+[[objects]]
+shape = "sphere"
+material = "steel"
+[[lights]]
+direction = [0.3, 0.8, 0.5]
+)";
+
+using ViewProgram = SceneFile;
+
+LoadScene loader() {
+    return [](const std::filesystem::path& file) { return load_scene(file).scene; };
+}
+
+/// In a window of 48 x 32 pixels, on a machine that takes passes where they are needed.
+Session opened(const std::filesystem::path& file) {
+    Session session(loader());
+    session.open(file);
+    session.state.width = 48;
+    session.state.height = 32;
+    session.state.machine = "nv2a";
+    return session;
+}
+
+FrameStats draw_once(Renderer& renderer, const Scene& scene, int, Framebuffer& target) {
+    return renderer.render(scene, target);
+}
+
+bool are_same(const Framebuffer& a, const Framebuffer& b) {
+    for (int y = 0; y < a.height(); ++y)
+        if (std::memcmp(a.row(y), b.row(y), 4 * static_cast<std::size_t>(a.width())) != 0)
+            return false;
+    return true;
+}
+
+Framebuffer drawn(const Scene& scene) {
+    Framebuffer frame(scene.width, scene.height);
+    Renderer({.threads = 1}).render(scene, frame);
+    return frame;
+}
+
+int channel(const Framebuffer& frame, const glm::ivec2& pixel, std::size_t c) {
+    return std::to_integer<int>(frame.row(pixel.y)[4 * static_cast<std::size_t>(pixel.x) + c]);
+}
+
+/// Where r differs most.
+glm::ivec2 most_different(const Framebuffer& a, const Framebuffer& b) {
+    glm::ivec2 found{0, 0};
+    int most = -1;
+    for (int i = 0; i < a.width() * a.height(); ++i) {
+        const glm::ivec2 pixel{i % a.width(), i / a.width()};
+        const int difference = std::abs(channel(a, pixel, 0) - channel(b, pixel, 0));
+        if (difference > most) found = pixel;
+        most = std::max(most, difference);
+    }
+    return found;
+}
+
+/// What the panel does: the text of the model's program becomes another one.
+void edit(Session& session, const std::string& material, const std::string& from,
+          const std::string& to) {
+    session.shows_programs = true;
+    const Picture picture =
+        PictureMaker(draw_once, 1000.0).make(session.wish(false).value(), Fineness::full);
+    ASSERT_EQ(picture.programs.at(0).material, material);
+    std::string text = picture.programs[0].text;
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << text << picture.programs[0].error;
+    session.edit_of(material).compiled = text;
+    session.edit_of(material).combiners = text.replace(at, from.size(), to);
+}
+
+/// Nothing before `final` is needed any more: only the diffuse part is left.
+constexpr const char* kDiffuse = "out.rgb = col1; // ";
+
+/// A comment changes nothing, whatever the material, the lights and the machine are: constants,
+/// tables and textures still come from the model.
+TEST_F(ViewProgram, ATextThatMeansTheSameDrawsTheSame) {
+    constexpr std::pair<const char*, Model> kCases[] = {{"nv2a", Model::abp_modified},
+                                                        {"geforce256", Model::abp_modified},
+                                                        {"ideal", Model::abp_modified},
+                                                        {"nv2a", Model::ward},
+                                                        {"ideal", Model::ward}};
+    scene(std::string(kSphere) +
+          "color = [0.9, 0.8, 0.7]\n[[lights]]\n"
+          "direction = [-1.0, 0.2, 0.4]\ncolor = [0.7, 0.9, 0.8]\n");
+    for (const auto& [machine, model] : kCases) {
+        Session session(loader());
+        session.open(path("s.toml"));
+        session.state.machine = machine;
+        session.edit_of("steel").model = model;
+        for (const float k : {0.25F, 0.24F}) {
+            session.edit_of("steel").kd = glm::vec3(k, 0.5F, 0.125F);
+            session.edit_of("steel").ks = glm::vec3(0.5F, 2.0F * k, 0.75F);
+            if (k == 0.25F) edit(session, "steel", "out.a", "// the same\nout.a");
+            Scene edited = *session.wish(false)->scene;
+            ASSERT_TRUE(edited.objects[0].edited);
+            const Framebuffer frame = drawn(edited);
+            edited.objects[0].edited = nullptr;
+            EXPECT_TRUE(are_same(frame, drawn(edited)))
+                << machine << " " << model_name(model) << " " << k;
+        }
+    }
+}
+
+TEST_F(ViewProgram, AnEditIsDrawnTracedAndMeasuredTheSame) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    const Framebuffer plain = drawn(*session.wish(false)->scene);
+    edit(session, "steel", "out.rgb = ", kDiffuse);
+    const Scene edited = *session.wish(false)->scene;
+    const Framebuffer frame = drawn(edited);
+    const glm::ivec2 pixel = most_different(frame, plain);
+    const PixelTrace trace = trace_pixel(edited, pixel.x, pixel.y);
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(trace.stored[c], channel(frame, pixel, c));
+    ASSERT_TRUE(trace.fragment);
+    EXPECT_SAYS(trace.fragment->stages.back().text, "out.rgb = col1;");
+    const Framebuffer exact = lab::render_with_bits(edited, {}, 1);
+    const auto* number = reinterpret_cast<const float*>(exact.row(pixel.y)) + 4 * pixel.x;
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(255.0 * number[c], channel(frame, pixel, c), 1.5);
+    EXPECT_GT(channel(plain, pixel, 0), channel(frame, pixel, 0) + 50) << "nothing was edited";
+}
+
+TEST_F(ViewProgram, AnErrorLeavesTheLastRightTextAndRevertTheModels) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    edit(session, "steel", "out.rgb = ", kDiffuse);
+    const auto right = session.wish(false)->scene->objects[0].edited;
+    ASSERT_TRUE(right);
+    const std::string text = *session.edit_of("steel").combiners;
+    session.edit_of("steel").combiners = text + "out.rgb = col2;\n";
+    const std::optional<Wish> wrong = session.wish(false);
+    ASSERT_TRUE(wrong);
+    ASSERT_FALSE(session.program_errors.empty());
+    EXPECT_EQ(session.program_errors[0].line,
+              static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+    EXPECT_EQ(wrong->scene->objects[0].edited, right);
+    EXPECT_EQ(wrong->scene->objects[0].material, session.loaded().objects[0].material)
+        << "textures would be made again";
+    session.edit_of("steel").combiners = text;
+    EXPECT_TRUE(session.wish(false)->scene->objects[0].edited);
+    EXPECT_TRUE(session.program_errors.empty());
+    session.revert_program("steel");
+    EXPECT_FALSE(session.wish(false)->scene->objects[0].edited);
+    EXPECT_EQ(session.find_edit("steel"), nullptr);
+}
+
+TEST_F(ViewProgram, AStateBringsTheEditBack) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    edit(session, "steel", "out.rgb = ", kDiffuse);
+    ViewState state = session.state;
+    state.input = "s.toml";
+    write(path("state.toml"), view_state_text(state));
+    Session again(loader());
+    again.open(load_view_state(path("state.toml")));
+    EXPECT_TRUE(are_same(drawn(*session.wish(false)->scene), drawn(*again.wish(false)->scene)));
+    // One that somebody wrote by hand.
+    again.edit_of("steel").compiled.reset();
+    EXPECT_TRUE(again.wish(false));
+    EXPECT_SAYS(again.program_errors.at(0).message, "compiled_text");
+    write(path("bad.toml"),
+          "schema = 1\ninput = \"s.toml\"\n[[materials]]\nname = \"a\"\ncompiled_text = \"\"\n");
+    EXPECT_SAYS(complaint_of([&] { load_view_state(path("bad.toml")); }), "'combiners_text'");
+}
+
+/// On a machine for which the model is another program, or that cannot run the edited one, the
+/// model's own is drawn and a note says why.
+TEST_F(ViewProgram, WhatDoesNotFitGivesWayToTheModels) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    edit(session, "steel", "out.rgb = ", kDiffuse);
+    PictureMaker maker(draw_once, 1000.0);
+    const Picture edited = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_EQ(edited.panes[0].note, "");
+
+    session.state.machine = "ideal";
+    session.state.pixel = glm::ivec2(24, 12);
+    const std::optional<Wish> other = session.wish(false);
+    Scene own = *other->scene;
+    own.objects[0].edited = nullptr;
+    const Picture fallback = maker.make(*other, Fineness::full);
+    EXPECT_EQ(fallback.panes[0].error, "");
+    EXPECT_SAYS(fallback.panes[0].note, "material 'steel'");
+    EXPECT_SAYS(fallback.panes[0].note, "'ideal'");
+    EXPECT_TRUE(are_same(fallback.frame, drawn(own)));
+    EXPECT_TRUE(fallback.trace) << fallback.trace_error;
+
+    session.state.machine = "nv2a";
+    const Picture back = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_EQ(back.panes[0].note, "");
+    EXPECT_TRUE(are_same(back.frame, edited.frame));
+
+    std::string& text = *session.edit_of("steel").combiners;
+    text.replace(text.find("!!RC1.0"), 7, "!!BRN1.0");
+    text.insert(text.find('{'), "{ wide rgb { spare0 = col0; } }\n");
+    const Picture wide = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_TRUE(session.program_errors.empty());
+    EXPECT_SAYS(wide.panes[0].note, "9-bit registers");
+
+    session.state.split = true;
+    const Picture split = maker.make(*session.wish(false), Fineness::full);
+    for (const PaneReport& pane : split.panes) {
+        EXPECT_EQ(pane.error, "");
+        EXPECT_EQ(pane.note.empty(), pane.machine == "double") << pane.machine;
+    }
+}
+
+TEST_F(ViewProgram, AMeshWithoutAMaterialHasTheDefaultOnesControls) {
+    scene("[[objects]]\nshape = \"sphere\"\n[[objects]]\nshape = \"cube\"\n");
+    Session session([](const std::filesystem::path& file) {
+        Scene scene = load_scene(file).scene;
+        scene.objects[1].material = nullptr;  // as programs may leave it
+        return scene;
+    });
+    session.open(path("s.toml"));
+    ASSERT_EQ(session.materials().size(), 1U);
+    const std::string name = session.materials()[0]->name;
+    session.edit_of(name).kd = glm::vec3(0.5F);
+    for (const Object& object : session.wish(false)->scene->objects)
+        EXPECT_EQ(object.material->kd, glm::vec3(0.5F));
+    session.forget_edit(name);
+    edit(session, name, "out.rgb = ", kDiffuse);
+    for (const Object& object : session.wish(false)->scene->objects) EXPECT_TRUE(object.edited);
+}
+
+TEST_F(ViewProgram, AMessageGoesWithTheNextWishThatSucceeds) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    session.try_open(path("nowhere.toml"));
+    session.state.half_vector = "cube:0";
+    EXPECT_FALSE(session.wish(false));
+    EXPECT_SAYS(session.wish_message, "cube:0");
+    session.state.half_vector = "vertex";
+    EXPECT_TRUE(session.wish(false));
+    EXPECT_EQ(session.wish_message, "");
+    EXPECT_SAYS(session.message, "nowhere.toml") << "of a file, which is still not there";
+}
+
+/// Nobody takes a picture before the finest one is there: it has the trace of an earlier one.
+TEST_F(ViewProgram, ATraceStaysWithThePictureThatOvertakesIt) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    session.state.pixel = glm::ivec2(24, 12);
+    std::mutex mutex;
+    std::condition_variable changed;
+    int pictures = 0;
+    PictureThread thread(PictureMaker(draw_once, 1000.0), [&] {
+        const std::scoped_lock lock(mutex);
+        ++pictures;
+        changed.notify_one();
+    });
+    thread.wish(session.wish(false).value());
+    {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [&] { return pictures == 4; });
+    }
+    const std::optional<Picture> picture = thread.take();
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->fineness, Fineness::smoothest);
+    EXPECT_TRUE(picture->is_last);
+    ASSERT_TRUE(picture->trace);
+    EXPECT_EQ(picture->trace->x, 24);
+}
+
+}  // namespace
+}  // namespace burnish::view
