@@ -400,7 +400,7 @@ std::vector<TileEntry> entries_of(const Sheet& sheet) {
         const PixelRect& box = sheet.triangles[i].box;
         if (sheet.places[i].covered == 0 || box.x1 >= kTileSize || box.y1 >= kTileSize) continue;
         entries.push_back({sheet.places[i].covered, i, static_cast<std::uint8_t>(box.x0),
-                           static_cast<std::uint8_t>(box.y0)});
+                           static_cast<std::uint8_t>(box.y0), 0});
     }
     return entries;
 }

@@ -24,6 +24,7 @@ namespace {
 #include "kernels/levels.inl"          // after fetch.inl, whose AxisAddress it uses
 #include "kernels/light_vertices.inl"  // after interpolate.inl, whose vectors it uses
 #include "kernels/rasterize.inl"
+#include "kernels/rasterize_small.inl"  // after rasterize.inl, whose lanes it uses
 #include "kernels/rasterize_tiny.inl"
 #include "kernels/setup.inl"
 #include "kernels/texture_shader.inl"

@@ -29,20 +29,6 @@ inline Mask32 lanes_of(std::uint64_t bits) {
     return (I32(static_cast<std::int32_t>(bits)) & load(kLanePositions.bit)) != I32(0);
 }
 
-/// Depth at a tile pixel, as RasterizeCtx defines it.
-inline float depth_at(const TileTriangle& t, int x, int y) {
-    const float z = (t.z + static_cast<float>(x + t.offset_x) * t.zx) +
-                    static_cast<float>(y + t.offset_y) * t.zy;
-    return z < t.z_low ? t.z_low : z > t.z_high ? t.z_high : z;
-}
-
-/// The expression is monotone in x and in y even when rounded, so its bounds over a block are at
-/// the corners that the slopes point to.
-inline float farthest_depth(const TileTriangle& t, int x, int y) {
-    constexpr int kLast = kBlockSize - 1;
-    return depth_at(t, t.zx < 0.0F ? x : x + kLast, t.zy < 0.0F ? y : y + kLast);
-}
-
 /// What of a triangle's edges is the same in every block. A triangle with fewer than three edges
 /// has edges with a = b = c = 0 in their place, which have everything inside.
 struct TriangleEdges {
@@ -229,19 +215,6 @@ inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, int x,
     }
 }
 
-/// Upper bound of a block's depths after the triangle was drawn in it.
-inline float updated_far(const TileTriangle& t, int x, int y, bool whole_block, float far) {
-    if (t.depth_write == 0) return far;
-    if (t.pass_greater != 0) {
-        const float farthest = farthest_depth(t, x, y);
-        return farthest > far ? farthest : far;
-    }
-    if (!whole_block || t.pass_less == 0) return far;
-    // Whatever the test left is no farther than the triangle.
-    const float farthest = farthest_depth(t, x, y);
-    return farthest < far ? farthest : far;
-}
-
 template <class Rule, class Trace>
 inline void draw_block(const TileTriangle& t, const TriangleEdges& edges, const BlockMasks& masks,
                        int block, float* tile_depth, Trace& trace) {
@@ -272,66 +245,10 @@ std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx)
     return drawn;
 }
 
-/// A bounding box no larger than a block: up to four blocks.
-inline bool is_small(const TileTriangle& t) {
-    return t.x1 - t.x0 < kBlockSize && t.y1 - t.y0 < kBlockSize;
-}
-
-/// The same for small triangles, which are done before blocks could be classified.
-template <class Rule, class Trace>
-std::uint64_t rasterize_small(const TileTriangle& t, const RasterizeCtx& ctx) {
-    std::int32_t a[3] = {}, b[3] = {}, c[3] = {};
-    I32 lanes[3] = {I32(0), I32(0), I32(0)};
-    for (int k = 0; k < t.edges; ++k) {
-        a[k] = t.a[k];
-        b[k] = t.b[k];
-        c[k] = t.c[k];
-        lanes[k] = I32(a[k]) * lane_x() + I32(b[k]) * lane_y();
-    }
-    const F32 zx(t.zx), zy(t.zy), z0(t.z), z_low(t.z_low), z_high(t.z_high);
-    constexpr int kLast = kBlockSize - 1;
-    std::uint64_t drawn = 0;
-    for (int top = t.y0 & ~kLast; top <= t.y1; top += kBlockSize) {
-        const int first_row = t.y0 > top ? t.y0 - top : 0;
-        const int last_row = t.y1 - top < kLast ? t.y1 - top : kLast;
-        const int first = first_row / kVectorRows * kRowVectors;
-        const int end = (last_row / kVectorRows + 1) * kRowVectors;
-        for (int left = t.x0 & ~kLast; left <= t.x1; left += kBlockSize) {
-            const int block = top + left / kBlockSize;
-            float* const depth = ctx.depth + block * kBlockPixels;
-            Trace trace(t, ctx, block);
-            for (int v = first; v < end; ++v) {
-                const int x = left + v % kRowVectors * kLanes32;
-                const int y = top + v / kRowVectors * kVectorRows;
-                const auto edge = [&](int k) { return lanes[k] + I32(c[k] + a[k] * x + b[k] * y); };
-                const I32 outside = edge(0) | edge(1) | edge(2);
-                const F32 dx = to_float(lane_x() + I32(x + t.offset_x));
-                const F32 dy = to_float(lane_y() + I32(y + t.offset_y));
-                const F32 z = min(max((z0 + dx * zx) + dy * zy, z_low), z_high);
-                const F32 old = load(depth + v * kLanes32);
-                const Mask32 write = as_int(Rule::pass(t, z, old)) & (outside >= I32(0));
-                trace.take(v, write);
-                if (Rule::writes(t))
-                    store(depth + v * kLanes32, ::xsimd::select(as_float(write), z, old));
-            }
-            drawn |= trace.passed() << block;
-            float& far = ctx.block_far[block];
-            far = updated_far(t, left, top, false, far);
-        }
-    }
-    return drawn;
-}
-
-template <class Rule, class Trace>
-std::uint64_t rasterize_any(const TileTriangle& t, const RasterizeCtx& ctx) {
-    return is_small(t) ? rasterize_small<Rule, Trace>(t, ctx)
-                       : rasterize_triangle<Rule, Trace>(t, ctx);
-}
-
 template <class Trace>
 std::uint64_t rasterize_by_rule(const TileTriangle& t, const RasterizeCtx& ctx) {
-    return nearer_wins(t) ? rasterize_any<NearerWins, Trace>(t, ctx)
-                          : rasterize_any<AnyRule, Trace>(t, ctx);
+    return nearer_wins(t) ? rasterize_triangle<NearerWins, Trace>(t, ctx)
+                          : rasterize_triangle<AnyRule, Trace>(t, ctx);
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {

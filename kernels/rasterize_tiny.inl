@@ -45,7 +45,7 @@ struct TinyFragments {
 /// Appends a triangle's fragments behind the first `count`; returns how many there are then. The
 /// number is handed on, since what lies in memory would be read again after every store.
 inline int append_fragments(const TileEntry& entry, const SetupTriangle& t,
-                            const RasterizeTinyCtx& ctx, int triangle, int count,
+                            const RasterizeEntriesCtx& ctx, int triangle, int count,
                             TinyFragments& out) {
     constexpr int kLast = kBlockSize - 1;
     const F32 z0(t.z), zx(t.zx), zy(t.zy), low(t.z_low), high(t.z_high);
@@ -81,7 +81,7 @@ inline int append_fragments(const TileEntry& entry, const SetupTriangle& t,
 /// Tests and writes fragments one by one. Whether one passes cannot be foretold, so what fails is
 /// written, too, where nobody looks.
 template <bool Usual, bool HasIds>
-inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeTinyCtx& ctx) {
+inline void draw_fragments(TinyFragments& fragments, int count, const RasterizeEntriesCtx& ctx) {
     constexpr std::uint32_t kNowhere = TinyFragments::kQuarters * TinyFragments::kEnough;
     const DepthRule rule = ctx.rule;
     float* const depth = ctx.depth;
@@ -121,7 +121,7 @@ inline std::uint64_t drawn_blocks(const TileEntry& entry, const std::uint8_t* pa
 }
 
 template <bool Usual, bool HasIds>
-void rasterize_tiny(const RasterizeTinyCtx& ctx) {
+void rasterize_tiny(const RasterizeEntriesCtx& ctx) {
     constexpr int kQuarters = TinyFragments::kQuarters;
     TinyFragments fragments;
     for (int next = 0; next < ctx.count;) {
@@ -144,7 +144,7 @@ void rasterize_tiny(const RasterizeTinyCtx& ctx) {
     }
 }
 
-void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
+void rasterize_tiny(const RasterizeEntriesCtx& ctx) noexcept {
     const DepthRule& rule = ctx.rule;
     const bool usual =
         rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;

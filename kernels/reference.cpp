@@ -156,9 +156,11 @@ bool set_up(const SetupCtx& ctx, ScreenVertex (&v)[3], SetupCounts& counts, Setu
                static_cast<std::int16_t>(std::min(x1, Int{ctx.width} - 1)),
                static_cast<std::int16_t>(std::min(y1, Int{ctx.height} - 1))};
     if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return false;
-    place = {0, static_cast<std::uint16_t>(out.box.x0), static_cast<std::uint16_t>(out.box.y0),
-             static_cast<std::uint32_t>(out.box.x0 / kTileSize != out.box.x1 / kTileSize ||
-                                        out.box.y0 / kTileSize != out.box.y1 / kTileSize)};
+    const bool small = x_high - x_low <= 256 * kSmallSize && y_high - y_low <= 256 * kSmallSize;
+    place = {
+        0, static_cast<std::uint16_t>(out.box.x0), static_cast<std::uint16_t>(out.box.y0),
+        static_cast<std::uint32_t>(!small || out.box.x0 / kTileSize != out.box.x1 / kTileSize ||
+                                   out.box.y0 / kTileSize != out.box.y1 / kTileSize)};
     const bool tiny = x1 - x0 < kTinySize && y1 - y0 < kTinySize;
     for (int y = out.box.y0; tiny && y <= out.box.y1; ++y) {
         for (int x = out.box.x0; x <= out.box.x1; ++x) {
@@ -248,33 +250,51 @@ void rasterize(const RasterizeCtx& ctx) noexcept {
     }
 }
 
-void rasterize_tiny(const RasterizeTinyCtx& ctx) noexcept {
+/// Entry k of a tile's list at a pixel that it covers.
+void draw_pixel(const RasterizeEntriesCtx& ctx, int k, int x, int y) {
+    const SetupTriangle& triangle = ctx.triangles[ctx.entries[k].triangle];
+    TileTriangle t{};
+    t.z = triangle.z;
+    t.zx = triangle.zx;
+    t.zy = triangle.zy;
+    t.z_low = triangle.z_low;
+    t.z_high = triangle.z_high;
+    t.offset_x = ctx.left - triangle.reference_x;
+    t.offset_y = ctx.top - triangle.reference_y;
+    const int pixel = tile_index(x, y);
+    const float depth = depth_at(t, x, y);
+    if (!passes(ctx.rule, depth, ctx.depth[pixel])) return;
+    if (ctx.id != nullptr) {
+        ctx.id[pixel] = ctx.first_id + static_cast<std::uint32_t>(k);
+        ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
+    }
+    if (ctx.rule.write == 0) return;
+    ctx.depth[pixel] = depth;
+    float& far = ctx.block_far[pixel / kBlockPixels];
+    far = std::max(far, depth);
+}
+
+void rasterize_small(const RasterizeEntriesCtx& ctx) noexcept {
+    for (int k = 0; k < ctx.count; ++k) {
+        const SetupTriangle& t = ctx.triangles[ctx.entries[k].triangle];
+        if (ctx.id != nullptr) ctx.drawn[k] = 0;
+        const int last_x = std::min<int>(t.box.x1, ctx.left + kTileSize - 1),
+                  last_y = std::min<int>(t.box.y1, ctx.top + kTileSize - 1);
+        for (int y = std::max<int>(t.box.y0, ctx.top); y <= last_y; ++y) {
+            for (int x = std::max<int>(t.box.x0, ctx.left); x <= last_x; ++x) {
+                if (covers(t, x, y)) draw_pixel(ctx, k, x - ctx.left, y - ctx.top);
+            }
+        }
+    }
+}
+
+void rasterize_tiny(const RasterizeEntriesCtx& ctx) noexcept {
     for (int k = 0; k < ctx.count; ++k) {
         const TileEntry& entry = ctx.entries[k];
-        const SetupTriangle& triangle = ctx.triangles[entry.triangle];
-        TileTriangle t{};
-        t.z = triangle.z;
-        t.zx = triangle.zx;
-        t.zy = triangle.zy;
-        t.z_low = triangle.z_low;
-        t.z_high = triangle.z_high;
-        t.offset_x = ctx.left - triangle.reference_x;
-        t.offset_y = ctx.top - triangle.reference_y;
         if (ctx.id != nullptr) ctx.drawn[k] = 0;
         for (int bit = 0; bit < kTinySize * kTinySize; ++bit) {
-            if ((entry.covered >> bit & 1) == 0) continue;
-            const int x = entry.x + bit % kTinySize, y = entry.y + bit / kTinySize;
-            const int pixel = tile_index(x, y);
-            const float depth = depth_at(t, x, y);
-            if (!passes(ctx.rule, depth, ctx.depth[pixel])) continue;
-            if (ctx.id != nullptr) {
-                ctx.id[pixel] = ctx.first_id + static_cast<std::uint32_t>(k);
-                ctx.drawn[k] |= std::uint64_t{1} << pixel / kBlockPixels;
-            }
-            if (ctx.rule.write == 0) continue;
-            ctx.depth[pixel] = depth;
-            float& far = ctx.block_far[pixel / kBlockPixels];
-            far = std::max(far, depth);
+            if ((entry.covered >> bit & 1) != 0)
+                draw_pixel(ctx, k, entry.x + bit % kTinySize, entry.y + bit / kTinySize);
         }
     }
 }
@@ -1644,6 +1664,7 @@ const KernelTable& table_reference() noexcept {
         .setup = setup,
         .clear_words = clear_words,
         .rasterize = rasterize,
+        .rasterize_small = rasterize_small,
         .rasterize_tiny = rasterize_tiny,
         .cover = cover,
         .collect = collect,

@@ -287,7 +287,10 @@ void setup(const SetupCtx& ctx) noexcept {
                 const LaneRows rows[4] = {triangle_row(fields, 0), triangle_row(fields, 1),
                                           triangle_row(fields, 2), triangle_row(fields, 3)};
                 write_triangles(rows, lanes, reinterpret_cast<unsigned char*>(out));
-                const I32 tiles = ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize);
+                const I32 most_apart(256 * kSmallSize);
+                const Mask32 large = (high_x - low_x > most_apart) | (high_y - low_y > most_apart);
+                const I32 tiles =
+                    ::xsimd::select(large, I32(-1), ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize));
                 const Columns place = transposed({{as_i16(covered.rows[0]), as_i16(covered.rows[1]),
                                                    as_i16(corner), as_i16(tiles)}});
                 write_places(place, lanes, reinterpret_cast<unsigned char*>(out_places));

@@ -411,6 +411,44 @@ inline I32 odd_dwords(I32 a, I32 b) {
         _mm512_shuffle_ps(_mm512_castsi512_ps(a), _mm512_castsi512_ps(b), 0xdd));
 }
 
+/// Which of kLanes32 words are `value`.
+inline Mask32 equal_words(const std::uint64_t* words, std::uint64_t value) {
+    const __m512i wanted = _mm512_set1_epi64(static_cast<long long>(value));
+    const __mmask8 low = _mm512_cmpeq_epi64_mask(_mm512_loadu_si512(words), wanted);
+    const __mmask8 high = _mm512_cmpeq_epi64_mask(_mm512_loadu_si512(words + 8), wanted);
+    return Mask32(_mm512_kunpackb(high, low));
+}
+/// Words k of lanes k of `which`, rising; may write kLanes32 of them.
+inline void append_words(std::uint64_t* to, const std::uint64_t* words, Mask32 which) {
+    const auto low = static_cast<__mmask8>(which.data),
+               high = static_cast<__mmask8>(which.data >> 8);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi64(low, _mm512_loadu_si512(words)));
+    _mm512_storeu_si512(to + __builtin_popcount(low),
+                        _mm512_maskz_compress_epi64(high, _mm512_loadu_si512(words + 8)));
+}
+/// Bits first .. last, 0 .. 63, of kLanes32 rows of 64; none where first > last, which may be 64
+/// and -1. Word 8 r + j of `to` is the 8 x 8 block of rows 8 r .. and bits 8 j .., a row in each
+/// byte.
+inline void store_block_rows(const I32 (&first)[1], const I32 (&last)[1], std::uint64_t* to) {
+    const __m512i all = _mm512_set1_epi64(-1), end = _mm512_set1_epi64(63);
+    const __m512i pairs =
+        _mm512_broadcast_i32x4(_mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
+    alignas(64) static constexpr std::int16_t kWords[32] = {
+        0, 8,  16, 24, 1, 9,  17, 25, 2, 10, 18, 26, 3, 11, 19, 27,
+        4, 12, 20, 28, 5, 13, 21, 29, 6, 14, 22, 30, 7, 15, 23, 31};
+    const __m512i words = _mm512_load_si512(kWords);
+    const auto blocks = [&](__m256i from, __m256i until) {
+        const __m512i rows = _mm512_and_si512(
+            _mm512_sllv_epi64(all, _mm512_cvtepi32_epi64(from)),
+            _mm512_srlv_epi64(all, _mm512_sub_epi64(end, _mm512_cvtepi32_epi64(until))));
+        return _mm512_permutexvar_epi16(words, _mm512_shuffle_epi8(rows, pairs));
+    };
+    _mm512_storeu_si512(to,
+                        blocks(_mm512_castsi512_si256(first[0]), _mm512_castsi512_si256(last[0])));
+    _mm512_storeu_si512(to + 8, blocks(_mm512_extracti64x4_epi64(first[0], 1),
+                                       _mm512_extracti64x4_epi64(last[0], 1)));
+}
+
 #elif defined(__AVX2__)
 
 inline F32 min(F32 a, F32 b) {
@@ -589,6 +627,31 @@ inline I32 even_dwords(I32 a, I32 b) {
 inline I32 odd_dwords(I32 a, I32 b) {
     return _mm256_castps_si256(
         _mm256_shuffle_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), 0xdd));
+}
+
+inline void store_block_rows(const I32 (&first)[1], const I32 (&last)[1], std::uint64_t* to) {
+    const __m256i all = _mm256_set1_epi64x(-1), end = _mm256_set1_epi64x(63);
+    const __m256i pairs = _mm256_broadcastsi128_si256(
+        _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
+    const auto rows = [&](__m128i from, __m128i until) {
+        const __m256i bits = _mm256_and_si256(
+            _mm256_sllv_epi64(all, _mm256_cvtepi32_epi64(from)),
+            _mm256_srlv_epi64(all, _mm256_sub_epi64(end, _mm256_cvtepi32_epi64(until))));
+        return _mm256_shuffle_epi8(bits, pairs);
+    };
+    const __m256i upper = rows(_mm256_castsi256_si128(first[0]), _mm256_castsi256_si128(last[0]));
+    const __m256i lower =
+        rows(_mm256_extracti128_si256(first[0], 1), _mm256_extracti128_si256(last[0], 1));
+    // Pairs of rows 0, 1 and 2, 3 to those of 4, 5 and 6, 7.
+    const __m256i low = _mm256_unpacklo_epi16(upper, lower),
+                  high = _mm256_unpackhi_epi16(upper, lower);
+    const __m256i even = _mm256_permute2x128_si256(low, high, 0x20);
+    const __m256i odd = _mm256_permute2x128_si256(low, high, 0x31);
+    const __m256i outer = _mm256_unpacklo_epi16(even, odd),
+                  inner = _mm256_unpackhi_epi16(even, odd);
+    auto* const out = reinterpret_cast<__m256i*>(to);
+    _mm256_storeu_si256(out, _mm256_permute2x128_si256(outer, inner, 0x20));
+    _mm256_storeu_si256(out + 1, _mm256_permute2x128_si256(outer, inner, 0x31));
 }
 
 #elif defined(__SSE4_2__)
@@ -1069,6 +1132,46 @@ template <int Rows>
     for (int k = 0; k < Rows; ++k) {
         const std::uintptr_t address = base + static_cast<std::uintptr_t>(row[k]);
         pairs[k] = load_pairs(reinterpret_cast<const std::uint8_t*>(address), offset);
+    }
+}
+#endif
+
+#if !defined(__AVX2__)
+inline void store_block_rows(const I32 (&first)[2], const I32 (&last)[2], std::uint64_t* to) {
+    static constexpr std::int8_t kPairs[16] = {0, 8,  1, 9,  2, 10, 3, 11,
+                                               4, 12, 5, 13, 6, 14, 7, 15};
+    std::int32_t from[8], until[8];
+    for (int v = 0; v < 2; ++v) {
+        store(from + 4 * v, first[v]);
+        store(until + 4 * v, last[v]);
+    }
+    constexpr std::uint64_t kAll = ~std::uint64_t{0};
+    std::uint64_t rows[8];
+    for (int k = 0; k < 8; ++k)
+        rows[k] = from[k] > until[k] ? 0 : kAll << from[k] & kAll >> (63 - until[k]);
+    const I16 pairs = broadcast_lane(kPairs);
+    I16 two[4];
+    for (int k = 0; k < 4; ++k) two[k] = shuffle_bytes(broadcast_lane(rows + 2 * k), pairs);
+    const I16 low[2] = {zip_lo16(two[0], two[1]), zip_lo16(two[2], two[3])};
+    const I16 high[2] = {zip_hi16(two[0], two[1]), zip_hi16(two[2], two[3])};
+    store_lane<0>(to, zip_lo32(low[0], low[1]));
+    store_lane<0>(to + 2, zip_hi32(low[0], low[1]));
+    store_lane<0>(to + 4, zip_lo32(high[0], high[1]));
+    store_lane<0>(to + 6, zip_hi32(high[0], high[1]));
+}
+#endif
+
+#if !defined(__AVX512BW__)
+inline Mask32 equal_words(const std::uint64_t* words, std::uint64_t value) {
+    std::int32_t equal[kLanes32];
+    for (int k = 0; k < kLanes32; ++k) equal[k] = words[k] == value ? 1 : 0;
+    return load(equal) != I32(0);
+}
+inline void append_words(std::uint64_t* to, const std::uint64_t* words, Mask32 which) {
+    const std::uint32_t lanes = bits(which);
+    for (int k = 0; k < kLanes32; ++k) {
+        *to = words[k];
+        to += lanes >> k & 1;
     }
 }
 #endif

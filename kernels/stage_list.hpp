@@ -8,15 +8,16 @@
 /// from these two lists. Contract header: no functions.
 
 /// Stages before shading: void stage(const Ctx&) noexcept.
-#define BURNISH_TILE_STAGES(X)          \
-    X(transform, TransformCtx)          \
-    X(light_vertices, LightVerticesCtx) \
-    X(setup, SetupCtx)                  \
-    X(clear_words, ClearWordsCtx)       \
-    X(rasterize, RasterizeCtx)          \
-    X(rasterize_tiny, RasterizeTinyCtx) \
-    X(cover, CoverCtx)                  \
-    X(collect, CollectCtx)              \
+#define BURNISH_TILE_STAGES(X)              \
+    X(transform, TransformCtx)              \
+    X(light_vertices, LightVerticesCtx)     \
+    X(setup, SetupCtx)                      \
+    X(clear_words, ClearWordsCtx)           \
+    X(rasterize, RasterizeCtx)              \
+    X(rasterize_small, RasterizeEntriesCtx) \
+    X(rasterize_tiny, RasterizeEntriesCtx)  \
+    X(cover, CoverCtx)                      \
+    X(collect, CollectCtx)                  \
     X(attribute_planes, AttributePlanesCtx)
 
 /// Stages on a packet: void stage(Packet&, const Ctx&) noexcept.

@@ -96,6 +96,9 @@ static_assert(sizeof(SetupTriangle) == 64);
 /// one of its box.
 inline constexpr int kTinySize = 8;
 
+/// A small triangle's corners are at most this many pixels apart, both ways.
+inline constexpr int kSmallSize = kTileSize;
+
 /// What became of the triangles that `setup` was given.
 struct SetupCounts {
     std::int32_t taken;  ///< triangles before the first that has to be clipped
@@ -108,7 +111,7 @@ struct SetupCounts {
 struct SetupPlace {
     std::uint64_t covered;  ///< of a tiny triangle, 0 of others
     std::uint16_t x, y;     ///< upper left pixel of the box
-    std::uint32_t tiles;    ///< 0: the box lies in one tile; else it does not
+    std::uint32_t tiles;    ///< 0: the triangle is small and its box lies in one tile
 };
 
 /// Corners to triangles, in order, up to the first triangle that has to be clipped. A triangle is
@@ -146,6 +149,7 @@ struct TileEntry {
     std::uint64_t covered;   ///< pixels of a tiny triangle in this tile, 0 of others
     std::uint32_t triangle;  ///< index into those of its chunk
     std::uint8_t x, y;       ///< tile pixel of the mask's bit 0
+    std::uint8_t is_large;   ///< 1: not small
 };
 
 /// What a fragment of a draw has to pass: 1: a new depth <, ==, > the old one passes; and whether
@@ -262,10 +266,13 @@ struct RasterizeCtx {
     std::uint64_t* drawn;  ///< out, `count` elements
 };
 
-/// The same for tiny triangles, whose coverage is known, `count` entries of a tile's list. The ids
-/// are first_id and those that follow; offset_x of the TileTriangle would be left - reference_x.
-/// Pixels of a mask lie inside the tile.
-struct RasterizeTinyCtx {
+/// The same for triangles as setup and a tile's list have them, `count` entries of the list: for
+/// rasterize_tiny tiny ones, whose coverage is their mask; for rasterize_small small ones, which
+/// cover pixels whose centres are inside as SetupCtx has it, whatever the mask, and are looked at
+/// beyond the frame as well where they reach there.
+/// The ids are first_id and those that follow; offset_x of the TileTriangle would be
+/// left - reference_x. Pixels of a mask lie inside the tile, boxes reach into it.
+struct RasterizeEntriesCtx {
     const TileEntry* entries;
     int count;
     const SetupTriangle* triangles;

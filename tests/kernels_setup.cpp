@@ -115,7 +115,9 @@ TEST_P(KernelTest, SetupOfRandomTriangles) {
     EXPECT_GT(dropped, 10000);
 }
 
-// ---- rasterize_tiny
+// ---- rasterize_small, rasterize_tiny
+
+using EntryStage = void (*KernelTable::*)(const RasterizeEntriesCtx&) noexcept;
 
 struct Tile {
     AlignedVector<float> depth = AlignedVector<float>(kTilePixels + 1, 1.0F);
@@ -123,15 +125,40 @@ struct Tile {
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
     std::vector<std::uint64_t> drawn;
 
-    void run(const KernelTable& table, const std::vector<TileEntry>& entries,
+    void run(const KernelTable& table, EntryStage stage, const std::vector<TileEntry>& entries,
              const std::vector<SetupTriangle>& triangles, const DepthRule& rule,
              bool depth_alone = false) {
         drawn.assign(entries.size(), ~std::uint64_t{0});
-        table.rasterize_tiny({entries.data(), static_cast<int>(entries.size()), triangles.data(),
-                              rule, 640, 128, 5, depth.data(), depth_alone ? nullptr : id.data(),
-                              block_far.data(), depth_alone ? nullptr : drawn.data()});
+        (table.*stage)({entries.data(), static_cast<int>(entries.size()), triangles.data(), rule,
+                        kLeft, kTop, 5, depth.data(), depth_alone ? nullptr : id.data(),
+                        block_far.data(), depth_alone ? nullptr : drawn.data()});
     }
+    static constexpr std::int32_t kLeft = 640, kTop = 128;
 };
+
+/// A kernel and the reference on the same depths, with ids and without.
+void check_entries(const KernelTable& table, EntryStage stage, Random& random,
+                   const std::vector<TileEntry>& entries,
+                   const std::vector<SetupTriangle>& triangles, const std::string& where) {
+    const auto flag = [&] { return static_cast<std::uint8_t>(random.below(2)); };
+    const DepthRule rule =
+        random.chance(2) ? DepthRule{1, 0, 0, 1} : DepthRule{flag(), flag(), flag(), flag()};
+    Tile got;
+    for (std::size_t i = 0; i < kTilePixels; ++i)
+        got.depth[i] = static_cast<float>(random.between(0, 8)) * 0.125F;
+    Tile want = got, alone = got;
+    got.run(table, stage, entries, triangles, rule);
+    alone.run(table, stage, entries, triangles, rule, true);
+    want.run(table_reference(), stage, entries, triangles, rule);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+        ASSERT_EQ(got.id[i], want.id[i]) << where << ", pixel " << i;
+        ASSERT_TRUE(same_bits(got.depth[i], want.depth[i])) << where << ", pixel " << i;
+        ASSERT_TRUE(same_bits(alone.depth[i], want.depth[i])) << where << ", alone, " << i;
+        ASSERT_GE(got.block_far[i / kBlockPixels], got.depth[i]) << where << ", pixel " << i;
+        ASSERT_GE(alone.block_far[i / kBlockPixels], got.depth[i]) << where << ", alone, " << i;
+    }
+    ASSERT_EQ(got.drawn, want.drawn) << where;
+}
 
 SetupTriangle random_plane(Random& random) {
     SetupTriangle t{};
@@ -148,7 +175,7 @@ SetupTriangle random_plane(Random& random) {
 /// A mask whose pixels lie in the tile: some dense, most of few rows.
 TileEntry random_entry(Random& random, std::uint32_t triangle) {
     TileEntry entry{0, triangle, static_cast<std::uint8_t>(random.below(kTileSize)),
-                    static_cast<std::uint8_t>(random.below(kTileSize))};
+                    static_cast<std::uint8_t>(random.below(kTileSize)), 0};
     const int columns = std::min(random.between(1, kTinySize), kTileSize - entry.x);
     const int rows = std::min(random.between(1, kTinySize), kTileSize - entry.y);
     while (entry.covered == 0) {
@@ -168,25 +195,94 @@ TEST_P(KernelTest, RasterizeTinyOfRandomMasks) {
         std::vector<TileEntry> entries;
         for (std::uint32_t i = 0; i < triangles.size(); ++i)
             if (!random.chance(4)) entries.push_back(random_entry(random, i));
-        const auto flag = [&] { return static_cast<std::uint8_t>(random.below(2)); };
-        const DepthRule rule =
-            random.chance(2) ? DepthRule{1, 0, 0, 1} : DepthRule{flag(), flag(), flag(), flag()};
-        Tile got;
-        for (std::size_t i = 0; i < kTilePixels; ++i)
-            got.depth[i] = static_cast<float>(random.between(0, 8)) * 0.125F;
-        Tile want = got, alone = got;
-        got.run(table(), entries, triangles, rule);
-        alone.run(table(), entries, triangles, rule, true);
-        want.run(table_reference(), entries, triangles, rule);
-        const std::string where = name("rasterize_tiny") + ", seed " + std::to_string(seed);
-        for (std::size_t i = 0; i < kTilePixels; ++i) {
-            ASSERT_EQ(got.id[i], want.id[i]) << where << ", pixel " << i;
-            ASSERT_TRUE(same_bits(got.depth[i], want.depth[i])) << where << ", pixel " << i;
-            ASSERT_TRUE(same_bits(alone.depth[i], want.depth[i])) << where << ", alone, " << i;
-            ASSERT_GE(got.block_far[i / kBlockPixels], got.depth[i]) << where << ", pixel " << i;
-        }
-        ASSERT_EQ(got.drawn, want.drawn) << where;
+        ASSERT_NO_FATAL_FAILURE(
+            check_entries(table(), &KernelTable::rasterize_tiny, random, entries, triangles,
+                          name("rasterize_tiny") + ", seed " + std::to_string(seed)));
     }
+}
+
+/// Corners around the tile, on pixel centres and edges of blocks as well; the first is in the tile.
+/// Nothing without an area.
+bool set_small_corners(Random& random, SetupTriangle& t) {
+    const int step = random.pick(std::array{1, 16, 64, 128, 256});
+    const int most = 256 * random.pick(std::array{2, 8, 24, kSmallSize});
+    const auto corner = [&](int first, int origin) {
+        const int at = first + random.between(-most / 2, most / 2);
+        return (origin * 256 + at) / step * step;
+    };
+    const int x = random.between(0, 64 * 256), y = random.between(0, 64 * 256);
+    for (int i = 0; i < 3; ++i) {
+        t.x[i] = corner(x, Tile::kLeft);
+        t.y[i] = corner(y, Tile::kTop);
+    }
+    const auto area = std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) -
+                      std::int64_t{t.y[1] - t.y[0]} * (t.x[2] - t.x[0]);
+    if (area < 0) {
+        std::swap(t.x[1], t.x[2]);
+        std::swap(t.y[1], t.y[2]);
+    }
+    const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
+    const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    t.box = {static_cast<std::int16_t>((left + 127) >> 8),
+             static_cast<std::int16_t>((top + 127) >> 8),
+             static_cast<std::int16_t>((right - 128) >> 8),
+             static_cast<std::int16_t>((bottom - 128) >> 8)};
+    return area != 0 && right - left <= 256 * kSmallSize && bottom - top <= 256 * kSmallSize &&
+           t.box.x1 >= Tile::kLeft && t.box.x0 < Tile::kLeft + kTileSize &&
+           t.box.y1 >= Tile::kTop && t.box.y0 < Tile::kTop + kTileSize;
+}
+
+TEST_P(KernelTest, RasterizeSmallOfRandomTriangles) {
+    for (unsigned seed = 0; seed < 2000; ++seed) {
+        Random random(seed);
+        std::vector<SetupTriangle> triangles(static_cast<std::size_t>(random.between(1, 40)));
+        std::vector<TileEntry> entries;
+        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+            triangles[i] = random_plane(random);
+            if (set_small_corners(random, triangles[i])) entries.push_back({0, i, 0, 0, 0});
+        }
+        if (entries.empty()) continue;
+        ASSERT_NO_FATAL_FAILURE(
+            check_entries(table(), &KernelTable::rasterize_small, random, entries, triangles,
+                          name("rasterize_small") + ", seed " + std::to_string(seed)));
+    }
+}
+
+// Edges whose crossings are as close to whole columns as they can be: one step of 1/256 pixel off a
+// pixel's centre, or on it, for every height up to the greatest.
+TEST_P(KernelTest, RasterizeSmallNextToPixelCentres) {
+    std::vector<SetupTriangle> triangles;
+    std::vector<TileEntry> entries;
+    for (const int height : {257, 4097, 16129, 16383, 16384}) {
+        for (const int across : {-16384, -16129, -255, 0, 1, 8192, 16383}) {
+            for (const int off : {-1, 0, 1}) {
+                SetupTriangle t{};
+                t.z_high = 1.0F;
+                const int x = Tile::kLeft * 256 + (across < 0 ? 16384 : 0) + 128 + off;
+                const int y = Tile::kTop * 256 + 128 + off;
+                const int third = across < 0 ? 0 : std::min(across + 300, 16384);
+                const int px[3] = {x, x + across, across < 0 ? x - 300 : x + third};
+                const int py[3] = {y, y + height, y + height / 2};
+                const auto area = std::int64_t{px[1] - px[0]} * (py[2] - py[0]) -
+                                  std::int64_t{py[1] - py[0]} * (px[2] - px[0]);
+                if (area == 0) continue;
+                for (int i = 0; i < 3; ++i) {
+                    const int from = area > 0 ? i : (3 - i) % 3;
+                    t.x[i] = px[from];
+                    t.y[i] = py[from];
+                }
+                t.box = {Tile::kLeft, Tile::kTop, Tile::kLeft + kTileSize - 1,
+                         Tile::kTop + kTileSize - 1};
+                entries.push_back({0, static_cast<std::uint32_t>(triangles.size()), 0, 0, 0});
+                triangles.push_back(t);
+            }
+        }
+    }
+    Random random(0);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        ASSERT_NO_FATAL_FAILURE(
+            check_entries(table(), &KernelTable::rasterize_small, random, {entries[i]}, triangles,
+                          name("rasterize_small") + ", triangle " + std::to_string(i)));
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ TEST_P(ReferencePixels, TinyTriangle) {
 // Its mask at (7, 7) of a tile: pixels (7, 7), (8, 7) and (7, 8) of blocks 0, 1 and 8, the second
 // of which shows something nearer.
 TEST_P(ReferencePixels, MaskAcrossBlocks) {
-    const TileEntry entry{0x103, 0, 7, 7};
+    const TileEntry entry{0x103, 0, 7, 7, 0};
     SetupTriangle triangle{};
     triangle.z = triangle.z_low = triangle.z_high = 0.5F;
     AlignedVector<float> depth(kTilePixels + 1, 1.0F), far(kTileBlocks, 1.0F);

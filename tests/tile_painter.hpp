@@ -37,13 +37,13 @@ class TilePainter {
     bool draw(const Chunk& chunk, const TileEntry& entry, std::int32_t tile_x,
               std::int32_t tile_y) {
         SetupTriangle triangle = chunk.triangles()[entry.triangle];
-        if (entry.covered == 0) return draw(triangle, tile_x, tile_y);
+        if (entry.is_large != 0) return draw(triangle, tile_x, tile_y);
         const DepthRule rule = begin(triangle);
-        const TileEntry alone{entry.covered, 0, entry.x, entry.y};
+        const TileEntry alone{entry.covered, 0, entry.x, entry.y, 0};
         std::uint64_t drawn = 0;
-        m_kernels.rasterize_tiny({&alone, 1, &triangle, rule, tile_x * kTileSize,
-                                  tile_y * kTileSize, m_current, m_depth.data(), m_id.data(),
-                                  m_far.data(), &drawn});
+        (entry.covered != 0 ? m_kernels.rasterize_tiny : m_kernels.rasterize_small)(
+            {&alone, 1, &triangle, rule, tile_x * kTileSize, tile_y * kTileSize, m_current,
+             m_depth.data(), m_id.data(), m_far.data(), &drawn});
         return true;
     }
 

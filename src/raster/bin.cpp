@@ -23,7 +23,14 @@ TileEntry tiny_part(const TileEntry& whole, std::int32_t x, std::int32_t y) {
     inside &= (0xffU << left & 0xffU >> right) * kRows;
     inside &= kAll << kTinySize * above & kAll >> kTinySize * below;
     return {(whole.covered & inside) >> (left + kTinySize * above), whole.triangle,
-            static_cast<std::uint8_t>(std::max(x, 0)), static_cast<std::uint8_t>(std::max(y, 0))};
+            static_cast<std::uint8_t>(std::max(x, 0)), static_cast<std::uint8_t>(std::max(y, 0)),
+            0};
+}
+
+bool is_small(const SetupTriangle& t) {
+    const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
+    const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    return right - left <= 256 * kSmallSize && bottom - top <= 256 * kSmallSize;
 }
 
 }  // namespace
@@ -177,7 +184,7 @@ void Chunk::sort_into_tiles() {
             const std::size_t tile = tile_number(place.x / kTileSize, place.y / kTileSize);
             m_entries[m_first[tile + 1]++] = {place.covered, i,
                                               static_cast<std::uint8_t>(place.x % kTileSize),
-                                              static_cast<std::uint8_t>(place.y % kTileSize)};
+                                              static_cast<std::uint8_t>(place.y % kTileSize), 0};
             continue;
         }
         for (; part != m_parts.end() && part->entry.triangle == i; ++part)
@@ -193,7 +200,8 @@ std::size_t Chunk::tile_number(std::int32_t x, std::int32_t y) const {
 void Chunk::add_parts(std::uint32_t index) {
     const SetupTriangle& triangle = m_triangles[index];
     const PixelRect& box = triangle.box;
-    const TileEntry whole{m_places[index].covered, index, 0, 0};
+    const auto is_large = static_cast<std::uint8_t>(is_small(triangle) ? 0 : 1);
+    const TileEntry whole{m_places[index].covered, index, 0, 0, is_large};
     for (std::int32_t y = box.y0 / kTileSize; y <= box.y1 / kTileSize; ++y) {
         for (std::int32_t x = box.x0 / kTileSize; x <= box.x1 / kTileSize; ++x) {
             TileEntry part = whole;

@@ -17,6 +17,12 @@ void set_rule(const DepthRule& rule, TileTriangle& triangle) {
     triangle.depth_write = rule.write;
 }
 
+enum class Size : std::uint8_t { tiny, small, large };
+Size size_of(const TileEntry& entry) {
+    if (entry.covered != 0) return Size::tiny;
+    return entry.is_large != 0 ? Size::large : Size::small;
+}
+
 }  // namespace
 
 TileVisibility::TileVisibility()
@@ -60,36 +66,37 @@ void TileVisibility::draw_depths(const Chunk& chunk, std::span<const DepthRule> 
 void TileVisibility::draw_entries(const Chunk& chunk, std::span<const DepthRule> rules,
                                   const KernelTable& kernels, std::uint32_t* id) {
     const std::span<const TileEntry> entries = chunk.tile(m_tile_x, m_tile_y);
-    const auto is_tiny = [](const TileEntry& entry) { return entry.covered != 0; };
     for (auto first = entries.begin(); first != entries.end();) {
-        const bool tiny = is_tiny(*first);
-        const auto last = tiny ? std::find_if_not(first, entries.end(), is_tiny)
-                               : std::find_if(first, entries.end(), is_tiny);
-        if (tiny) {
-            draw_tiny(chunk, {first, last}, rules, kernels, id);
+        const Size size = size_of(*first);
+        const auto last = std::find_if(
+            first, entries.end(), [&](const TileEntry& entry) { return size_of(entry) != size; });
+        const std::span<const TileEntry> alike(first, last);
+        if (size == Size::large) {
+            draw_large(chunk, alike, rules, kernels, id);
         } else {
-            draw_others(chunk, {first, last}, rules, kernels, id);
+            draw_listed(size == Size::tiny ? kernels.rasterize_tiny : kernels.rasterize_small,
+                        chunk, alike, rules, id);
         }
         first = last;
     }
 }
 
-void TileVisibility::draw_tiny(const Chunk& chunk, std::span<const TileEntry> entries,
-                               std::span<const DepthRule> rules, const KernelTable& kernels,
-                               std::uint32_t* id) {
+void TileVisibility::draw_listed(void (*rasterize)(const RasterizeEntriesCtx&) noexcept,
+                                 const Chunk& chunk, std::span<const TileEntry> entries,
+                                 std::span<const DepthRule> rules, std::uint32_t* id) {
     const SetupTriangle* const triangles = chunk.triangles().data();
     const DepthRule& rule = rules[triangles[entries.front().triangle].draw];
-    RasterizeTinyCtx ctx{entries.data(),
-                         static_cast<int>(entries.size()),
-                         triangles,
-                         rule,
-                         left(),
-                         top(),
-                         0,
-                         m_depth.data(),
-                         id,
-                         m_block_far.data(),
-                         nullptr};
+    RasterizeEntriesCtx ctx{entries.data(),
+                            static_cast<int>(entries.size()),
+                            triangles,
+                            rule,
+                            left(),
+                            top(),
+                            0,
+                            m_depth.data(),
+                            id,
+                            m_block_far.data(),
+                            nullptr};
     if (id != nullptr) {
         const std::size_t first = m_triangles.size();
         for (const TileEntry& entry : entries) m_triangles.push_back(triangles + entry.triangle);
@@ -97,12 +104,12 @@ void TileVisibility::draw_tiny(const Chunk& chunk, std::span<const TileEntry> en
         ctx.first_id = static_cast<std::uint32_t>(first);
         ctx.drawn = m_drawn.data() + first;
     }
-    kernels.rasterize_tiny(ctx);
+    rasterize(ctx);
 }
 
-void TileVisibility::draw_others(const Chunk& chunk, std::span<const TileEntry> entries,
-                                 std::span<const DepthRule> rules, const KernelTable& kernels,
-                                 std::uint32_t* id) {
+void TileVisibility::draw_large(const Chunk& chunk, std::span<const TileEntry> entries,
+                                std::span<const DepthRule> rules, const KernelTable& kernels,
+                                std::uint32_t* id) {
     TileTriangle batch[kBatch];
     std::uint64_t drawn[kBatch];
     RasterizeCtx ctx{batch, 0, m_depth.data(), id, m_block_far.data(), drawn};

@@ -56,17 +56,19 @@ class TileVisibility {
   private:
     void draw_entries(const Chunk& chunk, std::span<const DepthRule> rules,
                       const KernelTable& kernels, std::uint32_t* id);
-    void draw_tiny(const Chunk& chunk, std::span<const TileEntry> entries,
-                   std::span<const DepthRule> rules, const KernelTable& kernels, std::uint32_t* id);
-    void draw_others(const Chunk& chunk, std::span<const TileEntry> entries,
-                     std::span<const DepthRule> rules, const KernelTable& kernels,
+    void draw_listed(void (*rasterize)(const RasterizeEntriesCtx&) noexcept, const Chunk& chunk,
+                     std::span<const TileEntry> entries, std::span<const DepthRule> rules,
                      std::uint32_t* id);
+    void draw_large(const Chunk& chunk, std::span<const TileEntry> entries,
+                    std::span<const DepthRule> rules, const KernelTable& kernels,
+                    std::uint32_t* id);
     void hide_outside();
 
     std::int32_t m_tile_x = 0, m_tile_y = 0;
     FrameSize m_frame{};
-    AlignedVector<float> m_depth, m_block_far;  ///< of depths one more, as RasterizeTinyCtx has it
-    AlignedVector<std::uint32_t> m_id;          ///< likewise
+    AlignedVector<float> m_depth,
+        m_block_far;                    ///< of depths one more, as RasterizeEntriesCtx has it
+    AlignedVector<std::uint32_t> m_id;  ///< likewise
     std::vector<const SetupTriangle*> m_triangles;  ///< the visibility buffer holds indices
     std::vector<std::uint64_t> m_drawn;             ///< per triangle, as RasterizeCtx has it
     std::vector<std::uint32_t> m_first;             ///< of TileFragments
