@@ -42,6 +42,7 @@ struct NineBit {
     static constexpr std::int16_t kScaleA = 64, kScaleB = 2;  // of the operands of product()
     static Value product(I16 a, I16 b) { return product_255(a, b); }
     static Value add(Value a, Value b) { return a + b; }
+    static Value sum(Value p, Value q, Value r) { return p + q + r; }
     /// cd where the selector is above the limit.
     static Value mux(I16 selector, I16 limit, Value ab, Value cd) {
         return ::xsimd::select(selector > limit, cd, ab);
@@ -142,6 +143,7 @@ struct Wide {
                 (bitwise_cast<I32>(zip_hi16(low, high)) + half) >> 14};
     }
     static Value add(Value a, Value b) { return {a.lo + b.lo, a.hi + b.hi}; }
+    static Value sum(Value p, Value q, Value r) { return add(add(p, q), r); }
     static Value mux(I16 selector, I16 limit, Value ab, Value cd) {
         return {::xsimd::select(widen_lo(selector) > widen_lo(limit), cd.lo, ab.lo),
                 ::xsimd::select(widen_hi(selector) > widen_hi(limit), cd.hi, ab.hi)};
@@ -170,18 +172,71 @@ struct Wide {
     };
 };
 
-/// The wide model where every operand is expanded, or taken as it is: most dot products and most
-/// other products of compiled models.
-struct WideExpanded : Wide {
+/// The wide model where no operand is beyond 1: products and, saturating, sums fit 16 bits.
+/// Whatever saturates on the way lies beyond the ends of the register in the end, too.
+struct WideBounded {
+    using Value = I16;
+    static constexpr std::int16_t kOne = 16384, kHalf = 8192;
+
+    /// Any mapping of a register value e: max(e, low) * factor + offset, which may wrap on the way.
+    struct Map {
+        Map(std::uint8_t mapping, std::int16_t /*scale*/) {
+            static constexpr std::int16_t kNumbers[8][3] = {
+                {0, 1, 0},           // unsigned_identity
+                {0, -1, kOne},       // unsigned_invert
+                {0, 2, -2 * kHalf},  // expand
+                {0, -2, 2 * kHalf},  // expand_negate
+                {0, 1, -kHalf},      // half_bias
+                {0, -1, kHalf},      // half_bias_negate
+                {-32768, 1, 0},      // signed_identity
+                {-32768, -1, 0},     // signed_negate
+            };
+            low = I16(kNumbers[mapping][0]);
+            factor = I16(kNumbers[mapping][1]);
+            offset = I16(kNumbers[mapping][2]);
+        }
+        I16 operator()(I16 e) const { return max(e, low) * factor + offset; }
+        I16 low, factor, offset;
+    };
+    static constexpr std::int16_t kScaleA = 1, kScaleB = 1;
+    static Value product(I16 a, I16 b) { return mul_14_bits(a, b); }
+    static Value add(Value a, Value b) { return ::xsimd::sadd(a, b); }
+    /// Two products of 1 make 32767 of what r may bring back below: one is added afterwards.
+    static Value sum(Value p, Value q, Value r) {
+        const I16 both = equal_words(min(p, q), I16(kOne));
+        return ::xsimd::ssub(::xsimd::sadd(::xsimd::sadd(p, q), r), both);
+    }
+    static Value mux(I16 selector, I16 limit, Value ab, Value cd) {
+        return ::xsimd::select(selector > limit, cd, ab);
+    }
+    struct Output {
+        explicit Output(const PortionCtx& ctx)
+            : doublings(ctx.scale == OutputScale::two    ? 1
+                        : ctx.scale == OutputScale::four ? 2
+                                                         : 0),
+              to_one(ctx.wide == 0) {}
+        I16 operator()(Value x) const {
+            if (doublings > 0) x = ::xsimd::sadd(x, x);
+            if (doublings > 1) x = ::xsimd::sadd(x, x);
+            return to_one ? min(max(x, I16(-kOne)), I16(kOne)) : x;
+        }
+        int doublings;
+        bool to_one;
+    };
+};
+
+/// The same where every operand is expanded, or taken as it is: most dot products and most other
+/// products of compiled models.
+struct WideExpanded : WideBounded {
     struct Map {
         Map(std::uint8_t /*mapping*/, std::int16_t /*scale*/) {}
         I16 operator()(I16 e) const {
-            const I16 shifted = max(e, I16(0)) - I16(kHalf);
-            return ::xsimd::sadd(shifted, shifted);
+            const I16 x = max(e, I16(0));
+            return (x + x) - I16(kOne);
         }
     };
 };
-struct WidePlain : Wide {
+struct WidePlain : WideBounded {
     struct Map {
         Map(std::uint8_t /*mapping*/, std::int16_t /*scale*/) {}
         I16 operator()(I16 e) const { return e; }
@@ -216,8 +271,7 @@ template <class Model>
 }
 template <class Model>
 [[gnu::always_inline]] inline typename Model::Value dot_product(const Vector& a, const Vector& b) {
-    const auto first = Model::add(Model::product(a.x, b.x), Model::product(a.y, b.y));
-    return Model::add(first, Model::product(a.z, b.z));
+    return Model::sum(Model::product(a.x, b.x), Model::product(a.y, b.y), Model::product(a.z, b.z));
 }
 
 bool are_same(const Operand& a, const Operand& b) {
@@ -371,21 +425,50 @@ bool all_mapped(const PortionCtx& ctx, std::uint8_t mapping) {
            (ctx.cd == ProductKind::none || (ctx.c.mapping == mapping && ctx.d.mapping == mapping));
 }
 
-void portion_wide(Packet& packet, const PortionCtx& ctx) noexcept {
+/// Bounded products whose sums, scales and biases WideBounded knows.
+template <class Model, ProductKind Ab, ProductKind Cd>
+bool bounded_portion(Packet& packet, const PortionCtx& ctx) {
+    constexpr bool kHasDot = Ab == ProductKind::dot || Cd == ProductKind::dot;
+    if (ctx.third == ThirdKind::none) {
+        portion<Model, Ab, Cd, ThirdKind::none>(packet, ctx);
+        return true;
+    }
+    if constexpr (!kHasDot && Cd != ProductKind::none) {
+        if (ctx.third == ThirdKind::sum) {
+            portion<Model, Ab, Cd, ThirdKind::sum>(packet, ctx);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool bounded_portion(Packet& packet, const PortionCtx& ctx) {
     constexpr std::uint8_t kExpand = 2, kSignedIdentity = 6;
     constexpr ProductKind kDot = ProductKind::dot, kMultiply = ProductKind::multiply,
                           kNone = ProductKind::none;
-    if (ctx.third != ThirdKind::mux && ctx.ab == kDot && ctx.cd != kMultiply &&
-        all_mapped(ctx, kExpand)) {
-        if (ctx.cd == kNone) return portion<WideExpanded, kDot, kNone>(packet, ctx);
-        if (ctx.third == ThirdKind::none)
-            return portion<WideExpanded, kDot, kDot, ThirdKind::none>(packet, ctx);
+    if (ctx.ab == kDot) {
+        const bool expands = all_mapped(ctx, kExpand);
+        if (ctx.cd == kNone)
+            return expands ? bounded_portion<WideExpanded, kDot, kNone>(packet, ctx)
+                           : bounded_portion<WideBounded, kDot, kNone>(packet, ctx);
+        if (ctx.cd == kDot)
+            return expands ? bounded_portion<WideExpanded, kDot, kDot>(packet, ctx)
+                           : bounded_portion<WideBounded, kDot, kDot>(packet, ctx);
+        return bounded_portion<WideBounded, kDot, kMultiply>(packet, ctx);
     }
-    if (ctx.third != ThirdKind::mux && ctx.ab == kMultiply && ctx.cd != kDot &&
-        all_mapped(ctx, kSignedIdentity)) {
-        if (ctx.cd == kNone) return portion<WidePlain, kMultiply, kNone>(packet, ctx);
-        if (ctx.third == ThirdKind::sum)
-            return portion<WidePlain, kMultiply, kMultiply, ThirdKind::sum>(packet, ctx);
-    }
+    const bool plain = all_mapped(ctx, kSignedIdentity);
+    if (ctx.cd == kNone)
+        return plain ? bounded_portion<WidePlain, kMultiply, kNone>(packet, ctx)
+                     : bounded_portion<WideBounded, kMultiply, kNone>(packet, ctx);
+    if (ctx.cd == kMultiply)
+        return plain ? bounded_portion<WidePlain, kMultiply, kMultiply>(packet, ctx)
+                     : bounded_portion<WideBounded, kMultiply, kMultiply>(packet, ctx);
+    return bounded_portion<WideBounded, kMultiply, kDot>(packet, ctx);
+}
+
+void portion_wide(Packet& packet, const PortionCtx& ctx) noexcept {
+    const bool is_short =
+        ctx.bounded != 0 && ctx.bias_minus_half == 0 && ctx.scale != OutputScale::half;
+    if (is_short && bounded_portion(packet, ctx)) return;
     portion<Wide>(packet, ctx);
 }

@@ -63,26 +63,38 @@ struct FinalNineBitSum : FinalNineBit<R, RoundEach> {
 struct FinalWide {
     static constexpr std::int16_t kOne = 16384;
 
-    /// Clamps to 0 and, but for the colour sum as it is, to 1; then x or 1 - x.
+    /// Clamps to 0 .. 1; then x or 1 - x.
     struct Map {
-        Map(bool inverted, bool is_sum)
-            : turn(inverted ? -1 : 0),
-              offset(inverted ? kOne + 1 : 0),  // ~x + 1 + one = one - x
-              high(is_sum && !inverted ? std::int16_t{32767} : kOne) {}
-        I16 operator()(I16 e) const { return (min(max(e, I16(0)), high) ^ turn) + offset; }
-        I16 turn, offset, high;
+        Map(bool inverted, bool /*is_sum*/)
+            : turn(inverted ? -1 : 0), offset(inverted ? kOne + 1 : 0) {}  // ~x + 1 + one = one - x
+        I16 operator()(I16 e) const { return (min(max(e, I16(0)), I16(kOne)) ^ turn) + offset; }
+        I16 turn, offset;
     };
     static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(a, b); }
-    static I16 product(I16 a, I16 b) {
-        const Wide::Value v = Wide::product(a, b);
-        return narrow(v.lo, v.hi);
-    }
+    static I16 product(I16 a, I16 b) { return mul_14_bits_positive(a, b); }
     static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
         const I16 rest = I16(kOne) - a;
         const I32 half(8192);
         const I32 lo = mul_add_pairs(zip_lo16(a, rest), zip_lo16(b, c)) + half;
         const I32 hi = mul_add_pairs(zip_hi16(a, rest), zip_hi16(b, c)) + half;
         return ::xsimd::sadd(narrow(lo >> 14, hi >> 14), d);
+    }
+};
+
+/// The same with the colour sum, up to 32767, as B, C or D.
+struct FinalWideSum : FinalWide {
+    struct Map {
+        Map(bool inverted, bool is_sum)
+            : plain(inverted, is_sum), high(is_sum && !inverted ? std::int16_t{32767} : kOne) {}
+        I16 operator()(I16 e) const {
+            return (min(max(e, I16(0)), high) ^ plain.turn) + plain.offset;
+        }
+        FinalWide::Map plain;
+        I16 high;
+    };
+    static I16 product(I16 a, I16 b) {
+        const Wide::Value v = Wide::product(a, b);
+        return narrow(v.lo, v.hi);
     }
 };
 
@@ -203,6 +215,7 @@ void final_nine_bit(Packet& packet, const FinalCtx& ctx) noexcept {
     }
 }
 void final_wide(Packet& packet, const FinalCtx& ctx) noexcept {
+    if (ctx.uses_color_sum != 0) return final_combiner<FinalWideSum>(packet, ctx);
     final_combiner<FinalWide>(packet, ctx);
 }
 

@@ -1108,6 +1108,32 @@ inline I16 add_saturating_unsigned(I16 a, I16 b) {
 inline I16 subtract_saturating_unsigned(I16 a, I16 b) {
     return as_signed(::xsimd::ssub(as_unsigned(a), as_unsigned(b)));
 }
+/// (a b + 2^13) >> 14, exactly, for 0 <= a, b <= 2^14: 2 a may stop at 2^15 - 1, which for a = 2^14
+/// leaves b all the same.
+inline I16 mul_14_bits_positive(I16 a, I16 b) {
+    return mul_round(::xsimd::sadd(a, a), b);
+}
+/// The same for |a|, |b| <= 2^14. There a = 2^14 makes of b = -2^14 one too much, and of no other
+/// b.
+inline I16 mul_14_bits(I16 a, I16 b) {
+#if defined(__AVX512BW__)
+    return _mm512_mask_mulhrs_epi16(b, _mm512_cmpneq_epi16_mask(a, I16(16384)), a + a, b);
+#else
+    // (1 - a) (1 + b) >= 0, so that a b <= 1 + b - a, which is -1 there.
+    const I16 most = ::xsimd::sadd(::xsimd::ssub(b, a), I16(16384));
+    return min(mul_14_bits_positive(a, b), most);
+#endif
+}
+/// All bits where a = b, else none.
+inline I16 equal_words(I16 a, I16 b) {
+#if defined(__AVX512BW__)
+    return _mm512_movm_epi16(_mm512_cmpeq_epi16_mask(a, b));
+#elif defined(__aarch64__)
+    return vreinterpretq_s16_u16(vceqq_s16(a, b));
+#else
+    return (a == b).data;
+#endif
+}
 /// Of unsigned numbers.
 inline I32 min_unsigned(I32 a, I32 b) {
     using U32 = ::xsimd::batch<std::uint32_t, Arch>;

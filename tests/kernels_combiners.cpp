@@ -298,7 +298,8 @@ void choose(Random& random, PortionCtx& ctx) {
 }
 
 void check_random_portions(const KernelTable& table, PortionStage stage, int rounds,
-                           const std::vector<std::int16_t>& extremes, int low, int high) {
+                           const std::vector<std::int16_t>& extremes, int low, int high,
+                           bool bounded = false) {
     for (int seed = 0; seed < rounds; ++seed) {
         Random random(static_cast<unsigned>(seed));
         PacketMemory packet;
@@ -312,6 +313,7 @@ void check_random_portions(const KernelTable& table, PortionStage stage, int rou
         }
         for (int variant = 0; variant < 40; ++variant) {
             PortionCtx ctx = random_portion(random);
+            ctx.bounded = bounded ? 1 : 0;
             if (stage == &KernelTable::portion_nine_bit) {
                 ctx.wide = 0;
                 choose(random, ctx);
@@ -337,6 +339,40 @@ TEST_P(KernelTest, NineBitPortionsOfEveryKind) {
 
 TEST_P(KernelTest, WidePortionsOfEveryKind) {
     check_random_portions(table(), &KernelTable::portion_wide, 400, wide_extremes(), -32768, 32767);
+}
+
+/// The extremes that are not beyond 1.
+std::vector<std::int16_t> bounded_extremes() {
+    std::vector<std::int16_t> values = wide_extremes();
+    std::erase_if(values, [](int x) { return x < -16384 || x > 16384; });
+    return values;
+}
+
+// Ones of both signs are frequent, since they are what leaves the 16 bits.
+TEST_P(KernelTest, BoundedPortionsOfEveryKind) {
+    check_random_portions(table(), &KernelTable::portion_wide, 60, bounded_extremes(), -16384,
+                          16384, true);
+    check_random_portions(table(), &KernelTable::portion_wide, 60, {-16384, 0, 8192, 16384}, -16384,
+                          16384, true);
+}
+
+// Every register times every extreme, either way round.
+TEST_P(KernelTest, BoundedProductsOfEveryRegisterWithExtremes) {
+    PacketMemory packet;
+    for (const std::int16_t extreme : bounded_extremes()) {
+        for (int k = 3; k < 9; ++k) fill(packet, k, extreme);
+        for (int first = -16384; first <= 16384; first += kPacketSize) {
+            for (const int k : {0, 1, 2, 9, 10, 11})
+                for (int i = 0; i < kPacketSize; ++i)
+                    packet.plane(k)[i] = static_cast<std::int16_t>(std::min(first + i, 16384));
+            PortionCtx ctx = portion(ProductKind::multiply, ThirdKind::none, kScales[0], 1);
+            ctx.bounded = ctx.wide = 1;
+            const Written written = outputs_of(ctx);
+            ASSERT_EQ(stage_difference(table(), &KernelTable::portion_wide, packet, ctx, written),
+                      "")
+                << name("portion_wide") << ", register " << first << ", extreme " << extreme;
+        }
+    }
 }
 
 // The mux looks at spare0.alpha >= 1/2: 127 and 128, 8191 and 8192.

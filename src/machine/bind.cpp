@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace burnish {
 
@@ -111,6 +112,8 @@ class Binder {
             const bool black = (units.black >> unit & 1) != 0;
             at(tex(unit)) =
                 enabled ? input(tex(unit)) : Components{zero, zero, zero, black ? zero : one};
+            if (enabled && (units.beyond_one >> unit & 1) != 0)
+                for (const Value value : at(tex(unit))) m_beyond_one.insert(value);
         }
         at(Register::spare0)[3] = at(tex(0))[3];
     }
@@ -165,6 +168,9 @@ class Binder {
         op.ab_out = output(p.ab_out, op.components);
         op.cd_out = output(p.cd_out, op.components);
         op.third_out = output(p.third_out, op.components);
+        if (p.wide)
+            for (const auto* out : {&op.ab_out, &op.cd_out, &op.third_out})
+                m_beyond_one.insert(out->begin(), out->end());
         return op;
     }
 
@@ -517,6 +523,10 @@ class Binder {
         ctx.bias_minus_half = op.source->bias_minus_half ? 1 : 0;
         ctx.wide = op.source->wide ? 1 : 0;
         ctx.components = static_cast<std::uint8_t>(op.components);
+        ctx.bounded = 1;
+        for_each_read(op, [&](Value v) {
+            if (m_beyond_one.contains(v)) ctx.bounded = 0;
+        });
         const bool muxes = op.third == ThirdKind::mux;
         ctx.mux_plane =
             static_cast<std::int16_t>(muxes ? m_plane[static_cast<std::size_t>(op.mux)] : 0);
@@ -592,6 +602,7 @@ class Binder {
     std::array<Components, kRegisterCount> m_registers;
     int m_value_count = 0;
     std::map<int, Value> m_constants;  // by code
+    std::set<Value> m_beyond_one;      // what may lie outside of [-1, 1]
     std::vector<std::pair<Register, Components>> m_inputs;
     std::vector<Operation> m_operations;
     std::array<OperandValues, 7> m_final;  // A .. G

@@ -526,6 +526,7 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
         const std::uint32_t bit = 1U << i;
         const bool texel = has_texel(op) && (!sampled_target(op) ||
                                              has_color(format_class(material.units[i]->format())));
+        if (is_dimmed(op)) states.beyond_one |= bit;
         if (texel) {
             states.enabled |= bit;
         } else if (op != Op::none ||
