@@ -758,6 +758,11 @@ void add_levels() {
     table.t.plane = -1;
     add_packet_stage("look_up_table/of_one", &KernelTable::look_up_table, packet, table,
                      {.planes = {20}});
+    static const std::vector<std::int16_t> codes(65536, 12850);  // words of two bytes 77
+    LookUpTableCtx whole = table;
+    whole.codes = codes.data();
+    add_packet_stage("look_up_table/of_codes", &KernelTable::look_up_table, packet, whole,
+                     {.planes = {20}});
     static const std::vector<std::uint8_t> summed(33 * 520, 3);
     AverageTableCtx sums{summed.data(), table.s, table.t, 0x1p-15F,
                          0.0F,          8.0F,    520,     {20, -1, -1, -1}};

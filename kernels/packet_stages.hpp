@@ -147,6 +147,8 @@ struct LookUpTableCtx {
     Axis s, t;
     std::int32_t pitch;  ///< bytes
     int out[4];
+    /// Without a second axis, if not null: what all of this gives for code v, at v & 65535.
+    const std::int16_t* codes = nullptr;
 };
 
 /// The mean of a function of a wide register over what the register goes through between pixels,

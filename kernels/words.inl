@@ -274,7 +274,21 @@ void look_up_table(Packet& packet, const LookUpTableCtx& ctx) {
     }
 }
 
+/// Scalar: vectors have nothing that is quicker than two loads and a store.
+void look_up_codes(Packet& packet, const LookUpTableCtx& ctx) {
+    const auto* const from =
+        reinterpret_cast<const std::uint16_t*>(packet.planes + ctx.s.plane * kPacketSize);
+    const std::int16_t* const codes = ctx.codes;
+    const int n = group_count(packet);
+    for (const int plane : ctx.out) {
+        if (plane < 0) continue;
+        std::int16_t* const out = packet.planes + plane * kPacketSize;
+        for (int i = 0; i < n; ++i) out[i] = codes[from[i]];
+    }
+}
+
 void look_up_table(Packet& packet, const LookUpTableCtx& ctx) noexcept {
+    if (ctx.codes != nullptr) return look_up_codes(packet, ctx);
     ctx.t.plane < 0 ? look_up_table<false>(packet, ctx) : look_up_table<true>(packet, ctx);
 }
 

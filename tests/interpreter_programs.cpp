@@ -20,14 +20,20 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
 
-/// Inputs of every fragment: extremes of the register's range and anything between; what a
-/// disabled unit delivers where `enabled_units` lacks it.
+/// Colours and texels within [-1, 1], or any register's.
+void bound_inputs(Random& random, UnitStates& states) {
+    states.bounded_colors = random.chance(2);
+    states.bounded = states.bounded_colors ? ~0U : 0U;
+}
+
+/// Inputs of every fragment: extremes of the range and anything between; what a disabled unit
+/// delivers where that is its state.
 std::vector<RegisterFile> random_inputs(Random& random, const Machine& machine, int count,
-                                        std::uint32_t enabled_units) {
+                                        const UnitStates& states) {
     const bool wide = machine.numbers == NumberModel::wide;
-    const int low = wide ? -32768 : -256;
-    const int high = wide ? 32767 : 255;
     const int one = wide ? 16384 : 255;
+    const int low = states.bounded_colors ? -one : wide ? -32768 : -256;
+    const int high = states.bounded_colors || !wide ? one : 32767;
     const std::array extremes{low,     low + 1,     -one,    -1,  0,   1,
                               one / 2, one / 2 + 1, one - 1, one, high};
     std::vector<RegisterFile> files(static_cast<std::size_t>(count));
@@ -36,7 +42,7 @@ std::vector<RegisterFile> random_inputs(Random& random, const Machine& machine, 
             const Register reg = r == 0 ? Register::col0 : r == 1 ? Register::col1 : tex(r - 2);
             for (int& code : file[reg])
                 code = random.chance(3) ? random.pick(extremes) : random.between(low, high);
-            if (r >= 2 && (enabled_units >> (r - 2) & 1) == 0) file[reg] = {0, 0, 0, one};
+            if (r >= 2 && (states.enabled >> (r - 2) & 1) == 0) file[reg] = {0, 0, 0, one};
         }
     }
     return files;
@@ -97,9 +103,11 @@ void check_programs(const KernelTable& table, const Machine& profile, unsigned u
         const CombinerProgram program = random_program(random, machine);
         const auto enabled = static_cast<std::uint32_t>(random.below(1 << machine.texture_units)) |
                              static_cast<std::uint32_t>(random.below(1 << machine.texture_units));
-        const BoundProgram bound = bind(program, machine, {.enabled = enabled});
+        UnitStates states{.enabled = enabled};
+        bound_inputs(random, states);
+        const BoundProgram bound = bind(program, machine, states);
         const int count = random.between(1, 40);
-        const std::vector<RegisterFile> inputs = random_inputs(random, machine, count, enabled);
+        const std::vector<RegisterFile> inputs = random_inputs(random, machine, count, states);
         ProgramPacket memory(bound, inputs);
         run(bound, table, memory.packet);
         for (int i = 0; i < count; ++i) {
@@ -217,9 +225,9 @@ void check_fetches(const KernelTable& table, const Machine& machine, unsigned us
         }
         add_fetches(random, machine, textures, program);
         states.enabled = states.textured & static_cast<std::uint32_t>(random.below(1 << 16));
+        bound_inputs(random, states);
         const int count = random.between(1, 40);
-        const std::vector<RegisterFile> inputs =
-            random_inputs(random, machine, count, states.enabled);
+        const std::vector<RegisterFile> inputs = random_inputs(random, machine, count, states);
         const FetchingProgram bound(program, machine, states, textures);
         ProgramPacket memory(bound.shading.program, inputs);
         memory.packet.attributes = attributes.data();

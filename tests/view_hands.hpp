@@ -35,6 +35,9 @@ class Hands {
             if (m_window.empty()) pause(50);
         }
         EXPECT_NE(m_window, "") << "no window";
+        // Screenshots of windows before are not this one's.
+        for (const auto& entry : std::filesystem::directory_iterator(m_directory))
+            m_seen.insert(entry.path());
     }
 
     void key(const std::string& name) { xdotool("key " + name); }

@@ -168,6 +168,62 @@ material = "flat"
     });
 }
 
+/// The same for what a model is compiled to, of which there is no text but the panel's.
+TEST_F(ViewWindow, AModelsProgramIsEditedRepairedAndReverted) {
+    write(path("p.toml"), R"(schema = 1
+[output]
+width = 640
+height = 480
+[[materials]]
+name = "steel"
+kd = [0.3, 0.2, 0.1]
+[[lights]]
+direction = [0.0, 0.0, 1.0]
+[[objects]]
+shape = "sphere"
+material = "steel"
+)");
+    const glm::ivec3 wrong(255, 115, 102);
+    Shot edited;
+    show(path("p.toml"), [&](Hands& hands) {
+        const Shot before = hands.shot();
+        hands.key("p");
+        EXPECT_EQ(differences(before.image, hands.shot().image), 0);  // the panel has its text
+        hands.click(400, 58);
+        hands.key("ctrl+End");
+        hands.key("Up");
+        hands.key("Up");
+        hands.key("Home");
+        hands.type("q");
+        EXPECT_GT(count(hands.window_shot().image, wrong), 50) << "nobody was told";
+        EXPECT_EQ(differences(before.image, hands.shot().image), 0) << "not the last right one";
+        hands.key("BackSpace");
+        EXPECT_EQ(count(hands.window_shot().image, wrong), 0);
+        EXPECT_EQ(differences(before.image, hands.shot().image), 0);
+        hands.type("out.rgb = zero; // ");
+        edited = hands.shot();
+        EXPECT_EQ(count(hands.window_shot().image, wrong), 0);
+        EXPECT_SAYS(edited.state.materials.at(0).combiners.value(), "\nout.rgb = zero; // out");
+        EXPECT_GT(differences(before.image, edited.image), 20000);
+        EXPECT_EQ(color_at(edited.image, 320, 240), glm::ivec3(0)) << "in the middle of the sphere";
+        hands.click(285, 284);  // revert
+        const Shot reverted = hands.shot();
+        EXPECT_EQ(differences(before.image, reverted.image), 0);
+        EXPECT_TRUE(reverted.state.materials.empty());
+    });
+    ViewRequest again;
+    again.load_state = edited.file;
+    show(again, [&](Hands& hands) {
+        EXPECT_EQ(differences(edited.image, hands.shot().image), 0);
+        hands.key("m");  // double precision has no programs
+        EXPECT_GT(differences(edited.image, hands.shot().image), 20000);
+        hands.key("m");
+        const Shot old = hands.window_shot();  // the program of geforce256 is another one
+        EXPECT_GT(count(old.image, {150, 30, 30}, 25), 200) << "nobody was told";
+        EXPECT_GT(differences(edited.image, hands.shot().image), 20000);
+    });
+}
+
 TEST_F(ViewWindow, FollowsItsSizeAndItsFile) {
     const std::filesystem::path file = sphere();
     show(file, [&](Hands& hands) {

@@ -99,6 +99,11 @@ class Binder {
         return values;
     }
 
+    template <class Values>
+    void note_beyond_one(const Values& values) {
+        m_beyond_one.insert(values.begin(), values.end());
+    }
+
     void set_initial_registers(const UnitStates& units) {
         const Value zero = constant(0), one = constant(m_one);
         for (Components& components : m_registers) components.fill(zero);
@@ -107,13 +112,16 @@ class Binder {
         at(Register::fog) = constant(m_program.fog);
         at(Register::col0) = input(Register::col0);
         at(Register::col1) = input(Register::col1);
+        if (!units.bounded_colors) {
+            note_beyond_one(at(Register::col0));
+            note_beyond_one(at(Register::col1));
+        }
         for (int unit = 0; unit < 16; ++unit) {
             const bool enabled = (units.enabled >> unit & 1) != 0;
             const bool black = (units.black >> unit & 1) != 0;
             at(tex(unit)) =
                 enabled ? input(tex(unit)) : Components{zero, zero, zero, black ? zero : one};
-            if (enabled && (units.beyond_one >> unit & 1) != 0)
-                for (const Value value : at(tex(unit))) m_beyond_one.insert(value);
+            if (enabled && (units.bounded >> unit & 1) == 0) note_beyond_one(at(tex(unit)));
         }
         at(Register::spare0)[3] = at(tex(0))[3];
     }
@@ -168,9 +176,11 @@ class Binder {
         op.ab_out = output(p.ab_out, op.components);
         op.cd_out = output(p.cd_out, op.components);
         op.third_out = output(p.third_out, op.components);
-        if (p.wide)
-            for (const auto* out : {&op.ab_out, &op.cd_out, &op.third_out})
-                m_beyond_one.insert(out->begin(), out->end());
+        if (p.wide) {
+            note_beyond_one(op.ab_out);
+            note_beyond_one(op.cd_out);
+            note_beyond_one(op.third_out);
+        }
         return op;
     }
 

@@ -57,7 +57,8 @@ struct UnitStates {
     std::uint32_t black = 0;    ///< not enabled and reads (0, 0, 0, 0); else it reads (0, 0, 0, 1)
     std::uint32_t textured =
         0;  ///< fetches between stages find a texture; others bring (0, 0, 0, 1)
-    std::uint32_t beyond_one = 0;  ///< delivers texels that may lie outside of [-1, 1]
+    std::uint32_t bounded = 0;    ///< its texels lie within [-1, 1]
+    bool bounded_colors = false;  ///< col0 and col1 do, too
 };
 
 /// What is wanted of a program; the inputs that it asks for follow from that.

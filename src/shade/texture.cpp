@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/aligned.hpp"
+#include "shade/table_look_up.hpp"
 #include "shade/texture_texels.hpp"
 
 namespace burnish {
@@ -369,6 +370,8 @@ TexturePtr Texture::table(const Texture& texture) {
             std::memcpy(to + y * table->m_pitch + x * kTableTexel, column, sizeof column);
         }
     }
+    if (texture.target() == TextureTarget::one_d)
+        table->m_codes = std::make_shared<const std::vector<std::int16_t>>(table_codes(*table));
     return table;
 }
 

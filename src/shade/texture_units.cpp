@@ -11,6 +11,7 @@
 #include "core/dmath.hpp"
 #include "machine/unit_operations.hpp"
 #include "shade/shading.hpp"
+#include "shade/table_look_up.hpp"
 
 namespace burnish {
 
@@ -515,7 +516,7 @@ std::optional<FinestMap> finest_map(const ProgramMaterial& material, const Machi
 }
 
 UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) {
-    UnitStates states;
+    UnitStates states{.bounded = ~0U, .bounded_colors = true};
     for (std::size_t i = 0; i < material.units.size(); ++i) {
         if (material.units[i]) states.textured |= 1U << i;
     }
@@ -526,7 +527,7 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
         const std::uint32_t bit = 1U << i;
         const bool texel = has_texel(op) && (!sampled_target(op) ||
                                              has_color(format_class(material.units[i]->format())));
-        if (is_dimmed(op)) states.beyond_one |= bit;
+        if (is_dimmed(op)) states.bounded &= ~bit;
         if (texel) {
             states.enabled |= bit;
         } else if (op != Op::none ||
@@ -540,31 +541,14 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
 namespace {
 
 /// Brings a table's coordinate from its domain to 0 .. 1, where the centres of `size` texels lie.
-AffineCtx to_edges(TexelSpan span, int size, int attribute) {
-    if (span == TexelSpan::edges) return {attribute, attribute, 1.0F, 0.0F, 1.0F};
-    const auto n = static_cast<float>(size);
-    const bool is_signed = span == TexelSpan::signed_centers;
-    const float scale = is_signed ? 0.5F * (n - 1.0F) : n - 1.0F;
-    return {attribute, attribute, scale, is_signed ? 0.5F * n : 0.5F, n};
-}
-
 void add_span(TexelSpan span, int size, int attribute, std::vector<InputOp>& ops) {
-    if (span != TexelSpan::edges) ops.emplace_back(to_edges(span, size, attribute));
-}
-
-LookUpTableCtx::Axis table_axis(TexelSpan span, int size, int plane) {
-    const AffineCtx affine = to_edges(span, size, -1);
-    return {plane, size, affine.scale, affine.offset, affine.divisor};
+    if (span == TexelSpan::edges) return;
+    const SpanToEdges edges = to_edges(span, size);
+    ops.emplace_back(AffineCtx{attribute, attribute, edges.scale, edges.offset, edges.divisor});
 }
 
 LookUpTableCtx look_up(const BoundFetch& fetch, const Texture& table) {
-    const Sampler& sampler = table.sampler();
-    LookUpTableCtx ctx{table.texels(),
-                       table_axis(sampler.span_s, table.width(), fetch.plane[0]),
-                       table_axis(sampler.span_t, table.height(), -1),
-                       table.pitch(),
-                       {-1, -1, -1, -1}};
-    if (table.target() == TextureTarget::two_d) ctx.t.plane = fetch.plane[1];
+    LookUpTableCtx ctx = table_look_up(table, fetch.plane[0], fetch.plane[1]);
     for (int c = 0; c < 4; ++c)
         if ((fetch.live >> c & 1) != 0) ctx.out[c] = fetch.out + c;
     return ctx;

@@ -115,7 +115,8 @@ int side_of(Fineness fineness) {
 }  // namespace
 
 Renderer& PictureMaker::renderer_for(const RendererOptions& options) {
-    if (!m_renderer || options.threads != m_options.threads || options.isa != m_options.isa) {
+    if (!m_renderer || options.threads != m_options.threads || options.isa != m_options.isa ||
+        options.accounting != m_options.accounting) {
         m_renderer = std::make_unique<Renderer>(options);
         m_options = options;
     }
@@ -159,7 +160,7 @@ Framebuffer PictureMaker::draw_with_edits(const Wish& wish, Scene& scene, int si
         return draw_frame(wish, scene, side, picture);
     } catch (const Error& error) {
         if (!drop_edits(scene)) throw;
-        note = error.what();
+        note = std::string(error.what()) + "; the model's own is drawn";
     }
     Framebuffer frame = draw_frame(wish, scene, side, picture);
     report.note = note;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
+#include <utility>
 
 #include "view/panels.hpp"
 
@@ -49,15 +50,44 @@ void show_errors(const Session& session, const std::string& material) {
     }
 }
 
-/// A text with the numbers of its lines. True where a hand changed it.
+/// Scrolls the child that is open to the cursor, where it moved. `top`: where the text begins.
+void follow_cursor(const std::string& text, int cursor, float top) {
+    int* const last = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("cursor"), -1);
+    if (cursor < 0 || cursor == std::exchange(*last, cursor)) return;
+    const auto end = text.begin() + std::min(cursor, static_cast<int>(text.size()));
+    const float height = ImGui::GetTextLineHeight();
+    const float y = top + height * static_cast<float>(std::count(text.begin(), end, '\n'));
+    if (y < ImGui::GetScrollY() + height) ImGui::SetScrollY(y - height);
+    if (y + 3.0F * height > ImGui::GetScrollY() + ImGui::GetWindowHeight())
+        ImGui::SetScrollY(y + 3.0F * height - ImGui::GetWindowHeight());
+}
+
+/// A text with the numbers of its lines, as high as the panel has room. True where a hand changed
+/// it.
 bool edit_text(const Session& session, const std::string& material, std::string& text) {
-    show_errors(session, material);
-    std::size_t lines = 2;
-    for (const char c : text) lines += c == '\n' ? 1 : 0;
-    line_numbers(text, session.program_errors, material);
-    ImGui::SameLine();
-    const ImVec2 size(-1.0F, static_cast<float>(lines) * ImGui::GetTextLineHeight() + 8.0F);
-    return ImGui::InputTextMultiline("##program", &text, size);
+    constexpr float kFewestLines = 8.0F;
+    constexpr float kLinesBelow = 4.5F;  // the button, errors
+    const float line = ImGui::GetTextLineHeight();
+    const float whole =
+        line * static_cast<float>(std::count(text.begin(), text.end(), '\n') + 2) + 8.0F;
+    const float room =
+        std::max(ImGui::GetContentRegionAvail().y - kLinesBelow * line, kFewestLines * line);
+    bool changed = false;
+    if (ImGui::BeginChild("text", ImVec2(0.0F, std::min(whole, room)))) {
+        line_numbers(text, session.program_errors, material);
+        ImGui::SameLine();
+        int cursor = -1;
+        const auto tell = [](ImGuiInputTextCallbackData* data) {
+            *static_cast<int*>(data->UserData) = data->CursorPos;
+            return 0;
+        };
+        const float top = ImGui::GetCursorPosY();
+        changed = ImGui::InputTextMultiline("##program", &text, ImVec2(-1.0F, whole),
+                                            ImGuiInputTextFlags_CallbackAlways, tell, &cursor);
+        follow_cursor(text, cursor, top);
+    }
+    ImGui::EndChild();
+    return changed;
 }
 
 void edit_pipeline(Session& session, const Material& material) {
@@ -72,6 +102,7 @@ void edit_pipeline(Session& session, const Material& material) {
     }
     if (edit_text(session, material.name, text)) session.edit_of(material.name).combiners = text;
     if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
+    show_errors(session, material.name);
 }
 
 /// What the model is compiled to for the last picture; null until it is known.
@@ -98,9 +129,9 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
         if (!changed.combiners) changed.compiled = own->text;
         changed.combiners = text;
     }
-    if (!is_edited) return;
-    if (ImGui::Button("revert")) session.revert_program(material.name);
-    if (own != nullptr && ImGui::TreeNode("the model's own")) {
+    if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
+    show_errors(session, material.name);
+    if (is_edited && own != nullptr && ImGui::TreeNode("the model's own")) {
         ImGui::TextUnformatted(own->error.empty() ? own->text.c_str() : own->error.c_str());
         ImGui::TreePop();
     }

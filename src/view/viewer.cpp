@@ -287,7 +287,9 @@ void Viewer::ask_for_picture() {
     m_session.state.height = size.y;
     const bool moving = is_moving();
     m_session.shows_programs = m_open.program && m_panels;
-    Asked asked{m_session.state, m_session.renderer.threads, m_session.renderer.isa,
+    m_session.renderer.accounting = m_open.frame_graph && m_panels;
+    Asked asked{m_session.state,          m_session.renderer.threads,
+                m_session.renderer.isa,   m_session.renderer.accounting,
                 m_session.shows_programs, moving};
     if (asked == m_asked) return;
     m_asked = std::move(asked);

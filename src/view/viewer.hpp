@@ -56,7 +56,7 @@ class Viewer {
         ViewState state;
         int threads;
         std::string isa;
-        bool programs, moving;
+        bool accounting, programs, moving;
         friend bool operator==(const Asked&, const Asked&) = default;
     };
 

@@ -224,6 +224,11 @@ class Texture {
     /// Which of the textures of a quartet this is, 0 .. 3; -1 outside of one.
     [[nodiscard]] int place() const noexcept { return m_place; }
     [[nodiscard]] bool is_table() const noexcept { return m_is_table; }
+    /// Of a table of one dimension: what every code of a wide register finds in it, at
+    /// code & 65535; else null.
+    [[nodiscard]] const std::int16_t* codes() const noexcept {
+        return m_codes ? m_codes->data() : nullptr;
+    }
     /// Of a summed table, which is one, too.
     [[nodiscard]] const std::optional<CoordinateRange>& summed() const noexcept { return m_summed; }
     /// Texel (0, 0) of level 0, first face or slice.
@@ -272,6 +277,7 @@ class Texture {
     bool m_is_table = false;
     std::optional<CoordinateRange> m_summed;
     std::shared_ptr<Storage> m_storage;
+    std::shared_ptr<const std::vector<std::int16_t>> m_codes;
     const std::uint8_t* m_texels = nullptr;
 };
 
