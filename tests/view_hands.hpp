@@ -90,13 +90,15 @@ class Hands {
             << "xdotool " << what;
     }
 
-    Shot taken(const std::string& name) {
+    Shot taken(const std::string& shortcut) {
         pause(100);  // what was done before has arrived
-        key(name);
+        key(shortcut);
         for (int tries = 0; tries < 1200; ++tries) {
             for (const auto& entry : std::filesystem::directory_iterator(m_directory)) {
                 const std::filesystem::path file = entry.path();
-                if (file.filename().string().find("-view-") == std::string::npos ||
+                const std::string name = file.filename().string();
+                // One that is still being written begins with a point.
+                if (name.starts_with('.') || name.find("-view-") == std::string::npos ||
                     file.extension() != ".png" || !m_seen.insert(file).second)
                     continue;
                 return {file, load_image(file), load_view_state(file)};

@@ -171,6 +171,23 @@ TEST_F(ViewProgram, AnErrorLeavesTheLastRightTextAndRevertTheModels) {
     EXPECT_EQ(session.find_edit("steel"), nullptr);
 }
 
+TEST_F(ViewProgram, RegistersAreExplained) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    session.shows_programs = true;
+    session.edit_of("steel").model = Model::ward;
+    PictureMaker maker(draw_once, 1000.0);
+    const auto inputs = [&](Fineness fineness) {
+        return maker.make(*session.wish(false), fineness).programs.at(0).inputs;
+    };
+    EXPECT_EQ(inputs(Fineness::within_budget), "") << "while a hand moves there is no time";
+    const std::string text = inputs(Fineness::full);
+    EXPECT_SAYS(text, "col0.rgb  light_tangent\n");
+    EXPECT_SAYS(text, "tex1.rgb  X = (t / alpha_x)\n");
+    EXPECT_SAYS(text, "dot(v, n) = 0 .. 1\n");
+    EXPECT_EQ(inputs(Fineness::within_budget), text);
+}
+
 TEST_F(ViewProgram, AStateBringsTheEditBack) {
     scene(kSphere);
     Session session = opened(path("s.toml"));

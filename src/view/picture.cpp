@@ -200,6 +200,14 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
     if (!report.error.empty()) fill_columns(columns, picture.frame);
 }
 
+std::vector<MaterialProgram> PictureMaker::programs_of(const Wish& wish, Fineness fineness) {
+    Scene scene = *wish.scene;
+    // As its pane has it, which may draw programs in passes.
+    for (const Pane& pane : wish.panes)
+        if (pane.machine.name == scene.machine.name) scene.machine = pane.machine;
+    return m_programs.of(renderer_for(wish.renderer), scene, fineness == Fineness::full);
+}
+
 Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     const Clock::time_point start = Clock::now();
     Picture picture(wish.scene->width, wish.scene->height);
@@ -208,13 +216,10 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     picture.panes.resize(wish.panes.size());
     for (std::size_t i = wish.panes.size(); i-- > 0;) draw_pane(wish, fineness, i, picture);
     picture.ms = ms_since(start);
-    if (wish.programs) {
-        Scene scene = *wish.scene;
-        // As its pane has it, which may draw programs in passes.
-        for (const Pane& pane : wish.panes)
-            if (pane.machine.name == scene.machine.name) scene.machine = pane.machine;
-        picture.programs = programs_of_models(renderer_for(wish.renderer), scene);
-    }
+    if (wish.programs)
+        picture.programs = programs_of(wish, fineness);
+    else
+        m_programs = {};
     if (!wish.pixel || fineness != Fineness::full) return picture;
     try {
         Scene scene = *wish.scene;

@@ -92,12 +92,14 @@ class PictureMaker {
     /// With the edited programs of `scene`, or with the models' own if one of them does not run.
     Framebuffer draw_with_edits(const Wish& wish, Scene& scene, int side, PaneReport& report,
                                 Picture& picture);
+    std::vector<MaterialProgram> programs_of(const Wish& wish, Fineness fineness);
     Renderer& renderer_for(const RendererOptions& options);
 
     DrawSamples m_draw;
     Pace m_pace;
     std::unique_ptr<Renderer> m_renderer;
     RendererOptions m_options;
+    MaterialPrograms m_programs;
     std::optional<Framebuffer> m_truth;
     std::uint64_t m_truth_id = 0;  ///< of its wish
 };
