@@ -147,7 +147,7 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
 void program_panel(Session& session, const Picture* picture) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(display.x, 0.0F), ImGuiCond_FirstUseEver, ImVec2(1.0F, 0.0F));
-    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.7F * display.y),
+    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.55F * display.y),
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("program")) {
         if (picture != nullptr) {
@@ -158,8 +158,7 @@ void program_panel(Session& session, const Picture* picture) {
         int number = 0;
         for (const std::shared_ptr<const Material>& material : session.materials()) {
             ImGui::PushID(number++);
-            if (ImGui::CollapsingHeader(material->name.c_str(),
-                                        number == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+            if (material_header(*material, number == 1, picture)) {
                 if (material->program)
                     edit_pipeline(session, *material);
                 else
