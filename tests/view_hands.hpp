@@ -34,7 +34,7 @@ class Hands {
             m_window = output_of("xdotool search --name burnish | head -n 1");
             if (m_window.empty()) pause(50);
         }
-        EXPECT_NE(m_window, "") << "no window";
+        if (m_window.empty()) throw Error(ErrorCode::io, "no window");
     }
 
     void key(const std::string& name) { xdotool("key " + name); }

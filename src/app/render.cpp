@@ -152,7 +152,6 @@ void run(const RenderOptions& options) {
         save_image(frame, name);
         check.compare(name);
         ++drawn;
-        if (!scene.machine.double_precision) progress.done(drawn, count);
         if (i < last) continue;
         progress.finish();
         report(options, pattern, frame, stats, renderer, scene.machine.double_precision, frame_ms);

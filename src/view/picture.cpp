@@ -106,15 +106,16 @@ int side_of(Fineness fineness) {
 
 Renderer& PictureMaker::renderer_for(const RendererOptions& options) {
     if (!m_renderer || options.threads != m_options.threads || options.isa != m_options.isa) {
-        m_renderer = std::make_unique<Renderer>(options);
         m_options = options;
+        m_options.stop = m_stop;
+        m_renderer = std::make_unique<Renderer>(m_options);
     }
     return *m_renderer;
 }
 
 Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Picture& picture) {
     if (has_bits(wish, scene.machine))
-        return lab::render_with_bits(scene, bits_of(wish), wish.renderer.threads);
+        return lab::render_with_bits(scene, bits_of(wish), wish.renderer.threads, {.stop = m_stop});
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
     picture.stats = renderer_for(wish.renderer).render(scene, frame);
     return frame;
@@ -123,6 +124,7 @@ Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Pic
 const Framebuffer& PictureMaker::truth_of(const Wish& wish, Scene scene) {
     if (m_truth && m_truth_id == wish.id && m_truth->width() == scene.width) return *m_truth;
     scene.machine = double_precision(scene.machine);
+    m_truth_id = 0;  // nobody's, should it be stopped
     m_truth.emplace(scene.width, scene.height, PixelFormat::rgba32f);
     renderer_for(wish.renderer).render(scene, *m_truth);
     m_truth_id = wish.id;
@@ -168,6 +170,7 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         m_pace.took(pace, static_cast<double>(scene.width) * scene.height * report.samples,
                     report.ms, picture.stats.geometry_ms);
     } catch (const Error& error) {
+        if (error.code() == ErrorCode::stopped) throw;
         report.error = error.what();
     } catch (const std::bad_alloc&) {
         report.error = "out of memory";

@@ -72,9 +72,12 @@ using DrawSamples =
 /// Draws wishes, one call at a time.
 class PictureMaker {
   public:
-    PictureMaker(DrawSamples draw, double budget_ms) : m_draw(std::move(draw)), m_pace(budget_ms) {}
+    /// `stop` as RendererOptions has it.
+    PictureMaker(DrawSamples draw, double budget_ms, std::function<bool()> stop = {})
+        : m_draw(std::move(draw)), m_pace(budget_ms), m_stop(std::move(stop)) {}
 
-    /// Never throws for what a scene or machine cannot do: that is told pane by pane.
+    /// What a scene or machine cannot do is told pane by pane. Throws Error{stopped} when `stop`
+    /// says so.
     Picture make(const Wish& wish, Fineness fineness);
 
   private:
@@ -89,6 +92,7 @@ class PictureMaker {
 
     DrawSamples m_draw;
     Pace m_pace;
+    std::function<bool()> m_stop;
     std::unique_ptr<Renderer> m_renderer;
     RendererOptions m_options;
     std::optional<Framebuffer> m_truth;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -11,11 +12,15 @@
 namespace burnish::view {
 
 /// Draws beside the window's thread, so that a long picture never holds up a hand. Of several
-/// wishes the newest one counts; a picture that is at rest gets finer until there is a newer wish.
+/// wishes the newest one counts; a picture that is at rest gets finer until there is a newer wish,
+/// which ends it at once. The first picture of a wish is finished in any case, or a moving hand
+/// would see none.
 class PictureThread {
   public:
-    /// `ready` is called from this object's thread when there is a picture to take.
-    PictureThread(PictureMaker maker, std::function<void()> ready);
+    /// `draw` and `budget_ms` as PictureMaker takes them; `ready` is called from this object's
+    /// thread when there is a picture to take.
+    PictureThread(DrawSamples draw, double budget_ms, std::function<void()> ready);
+    /// Ends the picture that is being drawn.
     ~PictureThread();
     PictureThread(const PictureThread&) = delete;
     PictureThread& operator=(const PictureThread&) = delete;
@@ -28,8 +33,10 @@ class PictureThread {
     void run();
     /// Waits for a wish; nothing when the window was closed.
     std::optional<Wish> next_wish();
+    void refine(const Wish& wish);
     void deliver(Picture picture);
-    bool has_newer();
+    /// The picture that is being drawn is not wanted. Any thread calls.
+    [[nodiscard]] bool is_unwanted() const;
 
     PictureMaker m_maker;
     std::function<void()> m_ready;
@@ -37,7 +44,10 @@ class PictureThread {
     std::condition_variable m_changed;
     std::optional<Wish> m_wish;
     std::optional<Picture> m_picture;
-    bool m_stop = false;
+    // Written under the mutex, read by all workers without.
+    std::atomic<bool> m_has_newer{false};  ///< a wish, than what is being drawn
+    std::atomic<bool> m_is_first{true};    ///< of its wish: what is being drawn
+    std::atomic<bool> m_stop{false};
     std::thread m_thread;
 };
 

@@ -81,7 +81,7 @@ Viewer::Viewer(const ViewRequest& request, Session session)
     : m_request(request),
       m_session(std::move(session)),
       m_window("burnish", {m_session.state.width, m_session.state.height}),
-      m_pictures(PictureMaker(request.draw, kBudgetMs), tell_of_picture) {
+      m_pictures(request.draw, kBudgetMs, tell_of_picture) {
     m_session.renderer = request.renderer;
 }
 
