@@ -120,15 +120,17 @@ class ViewWindow : public ScratchDirectory {
         std::filesystem::current_path(directory());
     }
 
+    static Scene load(const std::filesystem::path& file) {
+        return file.extension() == ".toml" ? load_scene(file).scene : scene_for_mesh(file).scene;
+    }
+    static FrameStats draw(Renderer& renderer, const Scene& scene, int, Framebuffer& target) {
+        return renderer.render(scene, target);
+    }
+
     /// Shows `request` while another thread does `steps`, then closes the window if they did not.
     void show(ViewRequest request, const std::function<void(Hands&)>& steps) {
-        request.load = [](const std::filesystem::path& file) {
-            return file.extension() == ".toml" ? load_scene(file).scene
-                                               : scene_for_mesh(file).scene;
-        };
-        request.draw = [](Renderer& renderer, const Scene& scene, int, Framebuffer& target) {
-            return renderer.render(scene, target);
-        };
+        if (!request.load) request.load = load;
+        if (!request.draw) request.draw = draw;
         request.renderer.threads = 2;
         std::thread hands([&] {
             try {

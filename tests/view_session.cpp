@@ -10,6 +10,7 @@
 #include "tests/scene_file.hpp"
 #include "view/file_watch.hpp"
 #include "view/frame_times.hpp"
+#include "view/load_thread.hpp"
 
 namespace burnish::view {
 namespace {
@@ -279,17 +280,23 @@ TEST_F(ViewSession, StepsThroughTheDirectoryAndPassesOverWhatIsBroken) {
     write(path("notes.txt"), "");
     Session session(loader());
     session.open(path("a.toml"));
-    session.step_file(1);
+    const auto take = [&](const std::filesystem::path& input, LoadOrder::Purpose purpose) {
+        session.take(loaded(loader(), {input, purpose}));
+    };
+    const auto step = [&](int direction) {
+        take(neighbour(session.state.input, direction).value(), LoadOrder::Purpose::step);
+    };
+    step(1);
     EXPECT_EQ(session.state.input, path("b.toml"));
     EXPECT_SAYS(session.message, "schema");
-    session.step_file(1);
+    step(1);
     EXPECT_EQ(session.state.input, path("c.toml"));
     EXPECT_EQ(session.message, "");
-    session.step_file(1);
+    step(1);
     EXPECT_EQ(session.state.input, path("a.toml"));
-    session.step_file(-1);
+    step(-1);
     EXPECT_EQ(session.state.input, path("c.toml"));
-    session.try_open(path("not-there.toml"));
+    take(path("not-there.toml"), LoadOrder::Purpose::open);
     EXPECT_EQ(session.state.input, path("c.toml"));
     EXPECT_SAYS(session.message, "not-there.toml");
 }

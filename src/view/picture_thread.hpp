@@ -1,12 +1,11 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <thread>
 
+#include "view/mailbox.hpp"
 #include "view/picture.hpp"
 
 namespace burnish::view {
@@ -25,29 +24,21 @@ class PictureThread {
     PictureThread(const PictureThread&) = delete;
     PictureThread& operator=(const PictureThread&) = delete;
 
-    void wish(Wish wish);
+    void wish(Wish wish) { m_wishes.put(std::move(wish)); }
     /// The newest picture, once; nothing if there is none that was not taken yet.
-    std::optional<Picture> take();
+    std::optional<Picture> take() { return m_pictures.take(); }
 
   private:
     void run();
-    /// Waits for a wish; nothing when the window was closed.
-    std::optional<Wish> next_wish();
     void refine(const Wish& wish);
-    void deliver(Picture picture);
     /// The picture that is being drawn is not wanted. Any thread calls.
     [[nodiscard]] bool is_unwanted() const;
 
+    Mailbox<Wish> m_wishes;
+    Mailbox<Picture> m_pictures;
+    std::atomic<bool> m_is_first{true};  ///< of its wish: the picture that is being drawn
     PictureMaker m_maker;
     std::function<void()> m_ready;
-    std::mutex m_mutex;
-    std::condition_variable m_changed;
-    std::optional<Wish> m_wish;
-    std::optional<Picture> m_picture;
-    // Written under the mutex, read by all workers without.
-    std::atomic<bool> m_has_newer{false};  ///< a wish, than what is being drawn
-    std::atomic<bool> m_is_first{true};    ///< of its wish: what is being drawn
-    std::atomic<bool> m_stop{false};
     std::thread m_thread;
 };
 
