@@ -184,6 +184,7 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     picture.id = wish.id;
     picture.fineness = fineness;
     picture.panes.resize(wish.panes.size());
+    if (!wish.heat_map) m_truth.reset();
     for (std::size_t i = wish.panes.size(); i-- > 0;) draw_pane(wish, fineness, i, picture);
     picture.ms = ms_since(start);
     if (!wish.pixel || fineness != Fineness::full) return picture;
