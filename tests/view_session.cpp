@@ -116,6 +116,10 @@ TEST(ViewPace, DividesSidesUntilAFrameFits) {
     EXPECT_EQ(pace.divisor("m", 0.81e6, 1), 2.125);
     EXPECT_EQ(pace.divisor("m", 1e12, 1), 16.0);
     EXPECT_GT(pace.divisor("m", 0.2e6, 2), 1.0);
+    // Of others 60 ns or what is said are guessed.
+    EXPECT_EQ(pace.divisor("n", 1e7 / 60.0, 1), 1.0);
+    EXPECT_EQ(pace.divisor("n", 1e7 / 60.0 + 1.0, 1), 1.125);
+    EXPECT_EQ(pace.divisor("n", 1e7 / 500.0, 1, 2000.0), 2.0);
 }
 
 TEST(ViewFrameTimes, QuantilesAndRate) {

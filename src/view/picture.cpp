@@ -158,9 +158,12 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         const std::string pace = wish.heat_map                   ? "error"
                                  : has_bits(wish, scene.machine) ? "bits"
                                                                  : scene.machine.name;
+        const bool in_double =
+            wish.heat_map || !wish.bits.empty() || scene.machine.double_precision;
         if (fineness == Fineness::within_budget && can_shrink(scene))
             report.divisor = m_pace.divisor(pace, static_cast<double>(scene.width) * scene.height,
-                                            static_cast<int>(wish.panes.size()));
+                                            static_cast<int>(wish.panes.size()),
+                                            in_double ? Pace::kDoubleNs : Pace::kMachineNs);
         scene.width = static_cast<int>(std::ceil(scene.width / report.divisor));
         scene.height = static_cast<int>(std::ceil(scene.height / report.divisor));
         const int side = side_of(fineness);
