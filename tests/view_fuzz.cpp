@@ -1,14 +1,15 @@
-#ifdef BURNISH_SANITIZED
-#include <sanitizer/allocator_interface.h>
-#else
 #include <malloc.h>
-#endif
 
 #include <random>
 
 #include "tests/view_hands.hpp"
 #include "view/frame_times.hpp"
 #include "view/keys.hpp"
+
+#ifdef BURNISH_SANITIZED
+/// Of clang's <sanitizer/allocator_interface.h>, which g++ does not bring along.
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
+#endif
 
 namespace burnish::view {
 namespace {

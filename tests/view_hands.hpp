@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <burnish/renderer.hpp>
@@ -38,6 +39,12 @@ class Hands {
     }
 
     void key(const std::string& name) { xdotool("key " + name); }
+    /// The window, by its own key: nothing can be done with it afterwards.
+    void close() {
+        key("Escape");
+        m_closed = true;
+    }
+    [[nodiscard]] bool has_closed() const { return m_closed; }
     void hold(const std::string& name) { xdotool("keydown " + name); }
     void release(const std::string& name) { xdotool("keyup " + name); }
     void type(const std::string& text) { xdotool("type --delay 20 '" + text + "'"); }
@@ -106,6 +113,7 @@ class Hands {
 
     std::filesystem::path m_directory;
     std::string m_window;
+    bool m_closed = false;
     std::set<std::filesystem::path> m_seen;
 };
 
@@ -131,14 +139,25 @@ class ViewWindow : public ScratchDirectory {
     void show(ViewRequest request, const std::function<void(Hands&)>& steps) {
         if (!request.load) request.load = load;
         if (!request.draw) request.draw = draw;
+        // Hands send SDL events, too, which they may not before SDL is there.
+        std::atomic<bool> is_there{false};
+        request.draw = [&is_there, drawn = request.draw](Renderer& renderer, const Scene& scene,
+                                                         int side, Framebuffer& target) {
+            is_there = true;
+            return drawn(renderer, scene, side, target);
+        };
         request.renderer.threads = 2;
         std::thread hands([&] {
+            bool has_closed = false;
             try {
+                for (int tries = 0; !is_there && tries < 1200; ++tries) Hands::pause(50);
                 Hands driver(directory());
                 steps(driver);
+                has_closed = driver.has_closed();
             } catch (const std::exception& error) {
                 ADD_FAILURE() << error.what();
             }
+            if (has_closed || !is_there) return;
             SDL_Event quit{};
             quit.type = SDL_QUIT;
             SDL_PushEvent(&quit);

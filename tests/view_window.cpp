@@ -256,7 +256,7 @@ TEST_F(ViewWindow, AStateBringsTheSamePictureBack) {
         hands.key("m");
         hands.key("m");
         seen = hands.shot();
-        hands.key("Escape");
+        hands.close();
     });
     EXPECT_EQ(view_state_text(load_view_state(path("end.toml"))), view_state_text(seen.state));
     for (const std::filesystem::path& state : {path("end.toml"), seen.file}) {
