@@ -10,6 +10,7 @@
 
 #include "lab/stage_bits.hpp"
 #include "tests/scene_file.hpp"
+#include "view/load_thread.hpp"
 #include "view/picture_thread.hpp"
 #include "view/session.hpp"
 
@@ -270,7 +271,7 @@ TEST_F(ViewProgram, AMeshWithoutAMaterialHasTheDefaultOnesControls) {
 TEST_F(ViewProgram, AMessageGoesWithTheNextWishThatSucceeds) {
     scene(kSphere);
     Session session = opened(path("s.toml"));
-    session.try_open(path("nowhere.toml"));
+    session.take(loaded(loader(), {path("nowhere.toml"), LoadOrder::Purpose::open}));
     session.state.half_vector = "cube:0";
     EXPECT_FALSE(session.wish(false));
     EXPECT_SAYS(session.wish_message, "cube:0");
@@ -288,7 +289,7 @@ TEST_F(ViewProgram, ATraceStaysWithThePictureThatOvertakesIt) {
     std::mutex mutex;
     std::condition_variable changed;
     int pictures = 0;
-    PictureThread thread(PictureMaker(draw_once, 1000.0), [&] {
+    PictureThread thread(draw_once, 1000.0, [&] {
         const std::scoped_lock lock(mutex);
         ++pictures;
         changed.notify_one();

@@ -76,9 +76,12 @@ using DrawSamples =
 /// Draws wishes, one call at a time.
 class PictureMaker {
   public:
-    PictureMaker(DrawSamples draw, double budget_ms) : m_draw(std::move(draw)), m_pace(budget_ms) {}
+    /// `stop` as RendererOptions has it.
+    PictureMaker(DrawSamples draw, double budget_ms, std::function<bool()> stop = {})
+        : m_draw(std::move(draw)), m_pace(budget_ms), m_stop(std::move(stop)) {}
 
-    /// Never throws for what a scene or machine cannot do: that is told pane by pane.
+    /// What a scene or machine cannot do is told pane by pane. Throws Error{stopped} when `stop`
+    /// says so.
     Picture make(const Wish& wish, Fineness fineness);
 
   private:
@@ -97,6 +100,7 @@ class PictureMaker {
 
     DrawSamples m_draw;
     Pace m_pace;
+    std::function<bool()> m_stop;
     std::unique_ptr<Renderer> m_renderer;
     RendererOptions m_options;
     MaterialPrograms m_programs;
