@@ -9,6 +9,7 @@
 
 #include "core/cpu.hpp"
 #include "core/frame_account.hpp"
+#include "core/tile_watch.hpp"
 #include "draw.hpp"
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
@@ -90,19 +91,20 @@ struct Renderer::State {
           kernels(account ? account->timed() : select_table(options.isa)),
           memory_cap(options.memory_cap),
           double_samples(options.double_samples),
-          progress(options.progress) {
+          hooks{options.progress, options.stop} {
         pool.keep_account(account.get());
     }
 
     void prepare(const Scene& scene, const Framebuffer& target,
-                 const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
-    void transform(const Scene& scene);
-    void bin(FrameStats& stats);
+                 const std::optional<ShownRegister>& shown, std::optional<Aov> aov,
+                 TileWatch& watch);
+    void transform(const Scene& scene, TileWatch& watch);
+    void bin(FrameStats& stats, TileWatch& watch);
     template <class Fill>
     bool fill_all(std::size_t count, const Fill& fill);
     template <class Fill>
     std::size_t fill_what_fits(std::size_t count, const Fill& fill);
-    void draw_tiles(Framebuffer& target, bool first_round, bool last_round);
+    void draw_tiles(Framebuffer& target, bool first_round, bool last_round, TileWatch& watch);
     void draw_tile(Worker& worker, std::int32_t x, std::int32_t y, Framebuffer& target,
                    bool first_round, bool last_round);
     std::size_t first_list(std::span<const TileList> lists, std::int32_t x, std::int32_t y) const;
@@ -116,7 +118,7 @@ struct Renderer::State {
     const KernelTable& kernels;
     std::size_t memory_cap;
     int double_samples;
-    std::function<void(std::size_t, std::size_t)> progress;
+    FrameHooks hooks;
 
     FrameView frame{};
     bool depth_alone = false;  ///< the frame shows the depth buffer: fragments have no colours
@@ -154,7 +156,7 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
         if (target.format() == PixelFormat::depth32f) require_machine(scene, "a frame of depths");
         scene.machine.validate();
         return render_double(scene, target, m_state->pool,
-                             {.samples = m_state->double_samples, .progress = m_state->progress});
+                             {.samples = m_state->double_samples, .hooks = m_state->hooks});
     }
     return render_shown(scene, target, std::nullopt, std::nullopt);
 }
@@ -188,25 +190,30 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
     State& s = *m_state;
     FrameStats stats;
     std::optional<ClockLoan> clock;
+    const std::size_t tile_total = static_cast<std::size_t>(tile_count(target.width())) *
+                                   static_cast<std::size_t>(tile_count(target.height()));
+    TileWatch watch(s.hooks, tile_total);
     if (s.account) {
-        s.account->start(static_cast<std::size_t>(tile_count(target.width())) *
-                         static_cast<std::size_t>(tile_count(target.height())));
+        s.account->start(tile_total);
         clock.emplace(s.account->clock(0), StageClock::place(FrameStage::prepare));
     }
     try {
         const auto start = Clock::now();
-        s.prepare(scene, target, shown, aov);
-        s.transform(scene);
+        s.prepare(scene, target, shown, aov, watch);
+        s.transform(scene, watch);
         stats.geometry_ms = milliseconds_since(start);
         for (bool first_round = true; first_round || s.next_range < s.ranges.size();
              first_round = false) {
             const auto round = Clock::now();
-            s.bin(stats);
+            const std::size_t binned = s.next_range;
+            s.bin(stats, watch);
             stats.geometry_ms += milliseconds_since(round);
             const bool last_round = s.next_range == s.ranges.size();
             if (!last_round) ++stats.flushes;
             const auto tiles = Clock::now();
-            s.draw_tiles(target, first_round, last_round);
+            if (!s.ranges.empty())
+                watch.begin_round(binned, s.next_range - binned, s.ranges.size());
+            s.draw_tiles(target, first_round, last_round, watch);
             stats.tiles_ms += milliseconds_since(tiles);
         }
     } catch (const std::bad_alloc&) {
@@ -224,7 +231,8 @@ FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
 
 /// Camera, programs and raster state; the list of chunks.
 void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
-                              const std::optional<ShownRegister>& shown, std::optional<Aov> aov) {
+                              const std::optional<ShownRegister>& shown, std::optional<Aov> aov,
+                              TileWatch& watch) {
     scene.machine.validate();
     size = {target.width(), target.height()};
     frame = {&scene,
@@ -241,6 +249,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     std::size_t triangles = 0;
     bool all_write_depths = true;
     for (std::size_t i = 0; i < draws.size(); ++i) {
+        watch.require_wanted();
         prepare_draw(*draws[i], frame, scene.objects[i], maps);
         triangles += draws[i]->triangle_count();
         all_write_depths = all_write_depths && draws[i]->output.depth.write != 0;
@@ -275,13 +284,14 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     }
 }
 
-void Renderer::State::transform(const Scene& scene) {
+void Renderer::State::transform(const Scene& scene, TileWatch& watch) {
     const StageScope scope(FrameStage::transform);
     depth_rules.clear();
     overwrites.clear();
     shaded_draws.clear();
     bool depths_matter = false;
     for (std::size_t i = 0; i < draws.size(); ++i) {
+        watch.require_wanted();
         Draw& draw = *draws[i];
         draw.shaded = !depth_alone || draw.output.late_depth;
         transform_draw(draw, frame, scene.objects[i], kernels, pool);
@@ -297,12 +307,13 @@ void Renderer::State::transform(const Scene& scene) {
 }
 
 /// All chunks that are left, or as many as the memory cap allows; at least one.
-void Renderer::State::bin(FrameStats& stats) {
+void Renderer::State::bin(FrameStats& stats, TileWatch& watch) {
     const StageScope scope(FrameStage::bin);
     const std::size_t first = next_range;
     const std::size_t left = ranges.size() - first;
     while (chunks.size() < left) chunks.push_back(std::make_unique<Chunk>());
     const auto fill = [&](std::size_t i) {
+        if (!watch.go_on()) return std::size_t{0};
         const ChunkRange& range = ranges[first + i];
         const Draw& draw = *draws[range.draw];
         chunks[i]->fill({draw.mesh(), range.draw, draw.facing, frame.viewport, size}, range.first,
@@ -311,6 +322,7 @@ void Renderer::State::bin(FrameStats& stats) {
     };
     const bool all = first == 0 && !did_not_fit && fill_all(left, fill);
     chunk_count = all ? left : fill_what_fits(left, fill);
+    watch.require_wanted();
     next_range = first + chunk_count;
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < chunk_count; ++i) {
@@ -368,7 +380,8 @@ float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
     return depth.data() + tile * kTilePixels;
 }
 
-void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool last_round) {
+void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool last_round,
+                                 TileWatch& watch) {
     const StageScope scope(FrameStage::packets);
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
@@ -377,6 +390,7 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
         tile_order.plan({chunks.data(), chunk_count}, static_cast<std::size_t>(columns),
                         static_cast<std::size_t>(rows), pool.size());
     for_each_piece(pool, order, [&](std::size_t i, int w) {
+        if (!watch.go_on()) return;
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
         ++worker.tiles;
@@ -386,7 +400,9 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
         if (account)
             account->add_tile(i, ticks() - start, tile_order.weight(i),
                               worker.shader.shaded_pixels() - fragments);
+        watch.tile_done();
     });
+    watch.require_wanted();
 }
 
 /// Everything of one tile, in one worker's cache, then once to the frame. Draws that need no order

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/json.hpp"
 #include "tests/run_command.hpp"
 
 namespace burnish {
@@ -331,6 +332,16 @@ TEST_F(Command, BenchReportsOrderStatistics) {
         EXPECT_SAYS(json.out, fmt::format("\"{}\": ", key));
     const Result text = run("bench s.toml --frames 5");
     EXPECT_SAYS(text.out, "median");
+    // Four samples per pixel are a picture of four times the pixels.
+    const auto shaded = [&](const std::string& options) {
+        const Json bench = Json::parse(run("bench s.toml --frames 1 --json " + options).out);
+        return bench["last_frame"]["shaded_pixels"].number;
+    };
+    const double four = shaded("--samples 4");
+    EXPECT_EQ(four, shaded("--size 80x60"));
+    EXPECT_NEAR(four, shaded("--samples 4 --machine double"), 0.01 * four) << "in other places";
+    EXPECT_SAYS(run("bench s.toml --frames 1 --samples 4").out, "s.toml: 40 x 30, 4 samples, ");
+    expect_failure("bench s.toml --samples 25", 2, "expected 1, 4, 9 or 16");
     EXPECT_EQ(entries(), (std::vector<std::string>{"s.toml"}));
 }
 

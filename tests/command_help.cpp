@@ -1,16 +1,34 @@
 // What the command says about itself: help and its examples.
 #include <gtest/gtest.h>
 
-#include <set>
+#include <algorithm>
+#include <array>
+#include <burnish/files.hpp>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "tests/run_command.hpp"
+#include "tests/tiny_experiment_files.hpp"
 
 namespace burnish {
 namespace {
+
+/// Those without verbs of their own.
+constexpr std::array kVerbs{"render",
+                            "view",
+                            "trace",
+                            "bake brushed",
+                            "bake material",
+                            "bake mips",
+                            "bake anisotropy",
+                            "bake mesh",
+                            "bench",
+                            "compare",
+                            "compile",
+                            "experiment",
+                            "info",
+                            "completion",
+                            "man"};
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
@@ -31,7 +49,7 @@ std::vector<std::string> entries_below(const std::string& help, const std::strin
     return found;
 }
 
-class CommandHelp : public Command {
+class CommandHelp : public TinyExperiment {
   protected:
     std::string help(const std::string& verb) {
         const Result result = run(verb + " --help");
@@ -63,42 +81,19 @@ class CommandHelp : public Command {
         return false;
     }
 
-    /// The files that examples name.
+    /// The files that examples name, but for pictures, which take the command to be made.
     void prepare() {
         std::filesystem::create_symlink(BURNISH_SOURCE_DIR "/meshes", path("meshes"));
         write(path("program.rc"), "!!RC1.0\nout.rgb = tex0;\n");
         write(path("shader.ts"), "!!TS1.0\ntexture_2d();\n");
         write_scene("ball.toml");
-        ASSERT_EQ(run("render ball.toml -o reference.png").code, 0);
-        ASSERT_EQ(run("render ball.toml --machine nv2a --multipass -o picture.png").code, 0);
-        write(path("tiny.toml"), R"(schema = 1
-title = "Tiny"
-hypothesis = "A machine is not exact."
-metrics = ["rmse"]
-[[scenes]]
-name = "ball"
-file = "ball.toml"
-[[sweeps]]
-name = "machine"
-key = "machine.profile"
-values = ["nv2a", "ideal"]
-[reference]
-samples = 1
-set = { "machine.profile" = "double" }
-[[expect]]
-text = "nine bits are worse"
-metric = "rmse"
-measure = "ratio"
-where = { machine = "nv2a" }
-versus = { machine = "ideal" }
-at_least = 1
-)");
+        write_tiny_experiment();
     }
 };
 
 TEST_F(CommandHelp, EveryVerbHasGroupsDefaultsAndFourExamples) {
     const std::vector<std::string> verbs = working_verbs();
-    EXPECT_GE(verbs.size(), 12U);
+    EXPECT_TRUE(std::is_permutation(verbs.begin(), verbs.end(), kVerbs.begin(), kVerbs.end()));
     for (const std::string& verb : verbs) {
         const std::string text = help(verb);
         EXPECT_SAYS(text, "\nUsage: burnish " + verb + " [OPTION...]");
@@ -121,31 +116,43 @@ TEST_F(CommandHelp, EveryVerbHasGroupsDefaultsAndFourExamples) {
     EXPECT_SAYS(help("bake material"), "(required)");
 }
 
-/// All but those of `view`, which opens a window.
-TEST_F(CommandHelp, ExamplesRunAsPasted) {
+/// The examples of a verb, or of the command itself.
+class CommandExamples : public CommandHelp, public testing::WithParamInterface<const char*> {};
+
+// A verb each, since most of their time (0.2 s a command) is the loading of image libraries: so
+// they run side by side.
+TEST_P(CommandExamples, RunAsPasted) {
+    const std::string verb = GetParam();
+    if (verb == "view") GTEST_SKIP() << "a window";
     prepare();
     std::filesystem::create_directory(path("bin"));
     std::filesystem::create_symlink(BURNISH_COMMAND, path("bin/burnish"));
-    std::vector<std::string> verbs = working_verbs();
-    std::erase(verbs, "view");
-    verbs.emplace_back();
-    [[maybe_unused]] std::string last = "none";
-    for (const std::string& verb : verbs) {
-        for (const std::string& line : entries_below(help(verb), "Examples")) {
-            if (line.starts_with('#')) continue;
+    const std::string text = help(verb);
+    if (text.find("reference.png") != std::string::npos) {
+        ASSERT_EQ(run("render ball.toml -o reference.png").code, 0);
+        ASSERT_EQ(run("render ball.toml --machine nv2a --multipass -o picture.png").code, 0);
+    }
+    for (const std::string& line : entries_below(text, "Examples")) {
+        if (line.starts_with('#') || missing_program(line)) continue;
+        write(path("pasted"), "cd \"$HOME\"\n" + line + "\n");
+        const std::string shell = "HOME='" + directory().string() + "' PATH='" +
+                                  directory().string() + "/bin':\"$PATH\" bash -o pipefail '" +
+                                  path("pasted").string() + "' >'" + path("log").string() +
+                                  "' 2>&1";
+        EXPECT_EQ(std::system(shell.c_str()), 0) << line << '\n' << read(path("log"));
 #ifdef BURNISH_SANITIZED
-            if (std::exchange(last, verb) == verb) continue;  // one of each verb
+        break;  // one of each verb
 #endif
-            if (missing_program(line)) continue;
-            write(path("pasted"), "cd \"$HOME\"\n" + line + "\n");
-            const std::string shell = "HOME='" + directory().string() + "' PATH='" +
-                                      directory().string() + "/bin':\"$PATH\" bash -o pipefail '" +
-                                      path("pasted").string() + "' >'" + path("log").string() +
-                                      "' 2>&1";
-            EXPECT_EQ(std::system(shell.c_str()), 0) << line << '\n' << read(path("log"));
-        }
     }
 }
+
+std::string verb_name(const testing::TestParamInfo<const char*>& info) {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name.empty() ? "burnish" : name;
+}
+INSTANTIATE_TEST_SUITE_P(Verb, CommandExamples, testing::ValuesIn(kVerbs), verb_name);
+INSTANTIATE_TEST_SUITE_P(All, CommandExamples, testing::Values(""), verb_name);
 
 TEST_F(CommandHelp, TheManualHasEveryVerbAndOption) {
     const std::string page = run("man").out;
@@ -202,30 +209,33 @@ TEST_F(CommandHelp, MisspeltWordsAreRecognised) {
     expect_failure("experiment e7_ege -o x", 2, "did you mean 'e7_edge'?");
 }
 
+// One by the command, the others here: it loads the libraries of images every time.
 TEST_F(CommandHelp, MisspeltFilesAreRecognised) {
     write_scene("ball.toml");
-    write(path("knot.obj"), "");
-    write(path("picture.png"), "");
-    write(path("program.rc"), "");
-    write(path("a.png"), "");
+    for (const char* name : {"knot.obj", "picture.png", "program.rc", "a.png"})
+        write(path(name), "");
     std::filesystem::create_directory(path("sub"));
     write(path("sub/steel.toml"), "");
+    write(path("with.toml"), "schema = 1\n[[objects]]\nmesh = \"knott.obj\"\n");
     expect_failure("render bal.toml", 3,
                    "bal.toml: No such file or directory, did you mean 'ball.toml'?");
-    expect_failure("render knto.obj", 3, "did you mean 'knot.obj'?");
-    expect_failure("render knot.ob", 3, "did you mean 'knot.obj'?");
-    expect_failure("compare pictures.png picture.png", 3, "did you mean 'picture.png'?");
+    const auto mesh = [&](const char* name) {
+        return complaint_of([&] { scene_for_mesh(path(name)); });
+    };
+    EXPECT_SAYS(mesh("knto.obj"), "did you mean 'knot.obj'?");
+    EXPECT_SAYS(mesh("knot.ob"), "did you mean 'knot.obj'?");
+    const auto picture = [&](const char* name) {
+        return complaint_of([&] { load_frame(path(name)); });
+    };
+    EXPECT_SAYS(picture("pictures.png"), "did you mean 'picture.png'?");
     expect_failure("compile progam.rc", 3, "did you mean 'program.rc'?");
     expect_failure("compile --material sub/steal.toml", 3, "did you mean 'sub/steel.toml'?");
-    write(path("with.toml"), "schema = 1\n[[objects]]\nmesh = \"knott.obj\"\n");
-    expect_failure("render with.toml", 3, "with.toml:3: ");
-    expect_failure("render with.toml", 3, "did you mean 'knot.obj'?");
+    const std::string inside = complaint_of([&] { load_scene(path("with.toml")); });
+    EXPECT_SAYS(inside, "with.toml:3: ");
+    EXPECT_SAYS(inside, "did you mean 'knot.obj'?");
     // Neither near nor there, and a letter that is another file.
-    for (const char* name : {"b.png", "else.png", "nowhere/picture.png"}) {
-        const Result result = run(std::string("compare ") + name + " picture.png");
-        EXPECT_EQ(result.code, 3);
-        EXPECT_EQ(result.err.find("did you mean"), std::string::npos) << result.err;
-    }
+    for (const char* name : {"b.png", "else.png", "nowhere/picture.png"})
+        EXPECT_EQ(picture(name).find("did you mean"), std::string::npos) << picture(name);
 }
 
 }  // namespace

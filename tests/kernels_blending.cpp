@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "kernel_test.hpp"
@@ -172,7 +171,6 @@ TEST_P(KernelTest, AlphaTestsOfEveryKind) {
 }
 
 TEST_P(KernelTest, OnlyWhatIsAboveZeroIsKept) {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     Random random(1);
     PacketMemory packet;
     packet.shuffle_pixels(random);
@@ -204,7 +202,6 @@ struct LateTile {
 };
 
 TEST_P(KernelTest, LateDepthTestsOfEveryKind) {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::array<float, 10> depths{0.0F, 0.125F, 0.25F, 0.5F,  0.75F,
                                        1.0F, -0.1F,  1.1F,  1e30F, kNan};
     for (unsigned seed = 0; seed < 2000; ++seed) {

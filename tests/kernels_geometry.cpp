@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -12,9 +11,6 @@ namespace burnish {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // ---- transform
 

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 #include "kernel_test.hpp"
@@ -13,15 +12,6 @@ namespace burnish {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-/// Numbers that break careless arithmetic.
-constexpr std::array<float, 24> kWild{0.0F,      -0.0F,      1.0F,   -1.0F,  0.5F,   -0.75F,
-                                      1e-45F,    1e-38F,     1e-20F, 1e20F,  3e38F,  -3e38F,
-                                      kNan,      -kNan,      3.0F,   -2.0F,  2.1e9F, 65536.0F,
-                                      kInfinity, -kInfinity, 1e-8F,  0.999F, 255.0F, -1e-3F};
 
 void fill(PacketMemory& packet, int attribute, Random& random) {
     for (int i = 0; i < kPacketSize; ++i)
@@ -70,16 +60,7 @@ TEST_P(KernelTest, FootprintsOfRandomRuns) {
     for (int seed = 0; seed < 1500; ++seed) {
         Random random(static_cast<unsigned>(seed));
         PacketMemory packet;
-        packet.count = random.chance(3) ? kPacketSize : random.between(1, kPacketSize);
-        if (random.chance(2)) packet.shuffle_pixels(random);
-        std::vector<burnish::Run> runs;
-        const int longest = random.chance(2) ? 9 : 200;
-        for (int first = 0; first < packet.count;) {
-            const int length = std::min(packet.count - first, random.between(1, longest));
-            runs.push_back(
-                {first, length, random.between(-8192, 24576), random.between(-8192, 24576)});
-            first += length;
-        }
+        const std::vector<burnish::Run> runs = random_runs(packet, random);
         Equations equations(4);
         for (int k = 0; k < 5 * static_cast<int>(runs.size()); ++k) {
             std::array plane{random.real(-2.0F, 2.0F), random.real(-0.1F, 0.1F),

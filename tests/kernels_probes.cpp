@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "kernel_test.hpp"
@@ -11,28 +10,13 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr std::array<float, 16> kWild{0.0F,  -0.0F,     1.0F,       -1.0F, 2.0F,   1e-45F,
-                                      1e20F, 3e38F,     -3e38F,     kNan,  2.1e9F, -1e-9F,
-                                      0.5F,  kInfinity, -kInfinity, 0.999F};
-
 constexpr int kOut = 6, kProbes = 7, kStep = 8, kTo = 10, kSum = 12;
 
 TEST_P(KernelTest, ProbesOfRandomRuns) {
     for (int seed = 0; seed < 1500; ++seed) {
         Random random(static_cast<unsigned>(seed));
         PacketMemory packet;
-        packet.count = random.chance(3) ? kPacketSize : random.between(1, kPacketSize);
-        if (random.chance(2)) packet.shuffle_pixels(random);
-        std::vector<burnish::Run> runs;
-        const int longest = random.chance(2) ? 9 : 200;
-        for (int first = 0; first < packet.count;) {
-            const int length = std::min(packet.count - first, random.between(1, longest));
-            runs.push_back(
-                {first, length, random.between(-8192, 24576), random.between(-8192, 24576)});
-            first += length;
-        }
+        const std::vector<burnish::Run> runs = random_runs(packet, random);
         // Whole numbers meet the borders between counts of probes.
         const bool whole = random.chance(3);
         Equations equations(4);

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -13,8 +12,6 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::array kSpecials{0.0F,   -0.0F, 1.0F,   -1.0F, kInfinity, -kInfinity, kNan,
                                1e-45F, 3e38F, -3e38F, 0.5F,  127.5F,    1e-20F,     -1e20F};
 

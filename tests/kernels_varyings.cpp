@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "kernel_test.hpp"
@@ -10,9 +9,6 @@ namespace burnish {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Runs that share out `count` fragments, each with its own planes and reference pixel.
 struct Runs {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <string>
 
@@ -15,23 +14,6 @@ class SceneFile : public ScratchDirectory {
     Scene scene(const std::string& text) {
         write(path("s.toml"), "schema = 1\n" + text);
         return load_scene(path("s.toml")).scene;
-    }
-
-    /// The one line that `load` complains with, without the name of the directory.
-    template <class Load>
-    std::string complaint_of(Load&& load) {
-        try {
-            load();
-        } catch (const Error& error) {
-            std::string what = error.what();
-            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-            const std::string root = directory().string() + "/";
-            for (std::size_t at = what.find(root); at != std::string::npos; at = what.find(root))
-                what.erase(at, root.size());
-            return what;
-        }
-        ADD_FAILURE() << "no error";
-        return {};
     }
 };
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <burnish/error.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -47,6 +48,23 @@ class ScratchDirectory : public testing::Test {
             names.push_back(entry.path().filename().string());
         std::sort(names.begin(), names.end());
         return names;
+    }
+
+    /// The one line that `load` complains with, without the name of the directory.
+    template <class Load>
+    std::string complaint_of(Load&& load) const {
+        try {
+            load();
+        } catch (const Error& error) {
+            std::string what = error.what();
+            EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+            const std::string root = directory().string() + "/";
+            for (std::size_t at = what.find(root); at != std::string::npos; at = what.find(root))
+                what.erase(at, root.size());
+            return what;
+        }
+        ADD_FAILURE() << "no error";
+        return {};
     }
 
   private:

@@ -7,7 +7,9 @@
 #include <burnish/error.hpp>
 #include <chrono>
 #include <cstring>
+#include <limits>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <string_view>
 #include <thread>
@@ -129,6 +131,81 @@ TEST(Threads, ARefusedSceneLeavesTheRendererUsable) {
         EXPECT_THROW(renderer.render(bad, frame), Error);
         renderer.render(scenes[0], frame);
         EXPECT_TRUE(same(frame, want));
+    }
+}
+
+/// A frame of several tiles in each worker's part: machines, one that flushes, double precision.
+struct LongFrame {
+    Scene scene;
+    std::size_t memory_cap = RendererOptions{}.memory_cap;
+    std::size_t tiles;
+};
+
+constexpr int kLongWidth = 300, kLongHeight = 200;
+
+std::vector<LongFrame> long_frames() {
+    Scene exact = scenes::knot();
+    exact.machine = machine_profile("double");
+    return {{.scene = scenes::knot(), .tiles = 5 * 4},
+            {.scene = scenes::knot(), .memory_cap = 20000, .tiles = 5 * 4},
+            {.scene = exact, .tiles = 19 * 13}};
+}
+
+// After the caller's word no tile is begun: what every worker has in hand may be finished. The next
+// frame of the same renderer has every bit.
+TEST(Threads, AStoppedFrameEndsAndTheNextIsWhole) {
+    for (const LongFrame& frame : long_frames()) {
+        Framebuffer want(kLongWidth, kLongHeight), got(kLongWidth, kLongHeight);
+        Renderer({.threads = 1, .memory_cap = frame.memory_cap}).render(frame.scene, want);
+        for (const int threads : {1, 3}) {
+            std::atomic<int> questions{0}, late_tiles{0};
+            int patience = 0;
+            Renderer renderer({.threads = threads,
+                               .memory_cap = frame.memory_cap,
+                               .progress =
+                                   [&](std::size_t, std::size_t) {
+                                       if (questions > patience) ++late_tiles;
+                                   },
+                               .stop = [&] { return ++questions > patience; }});
+            for (patience = 0; patience < 20; ++patience) {
+                questions = late_tiles = 0;
+                try {
+                    renderer.render(frame.scene, got);
+                    ADD_FAILURE() << "nobody listened at question " << patience;
+                } catch (const Error& error) {
+                    EXPECT_EQ(error.code(), ErrorCode::stopped) << error.what();
+                }
+                EXPECT_LE(late_tiles, threads);
+                EXPECT_LE(questions, patience + threads) << "asked again after the answer";
+            }
+            patience = std::numeric_limits<int>::max();
+            renderer.render(frame.scene, got);
+            EXPECT_TRUE(same(got, want)) << threads << " threads";
+        }
+    }
+}
+
+TEST(Threads, ProgressReachesTheLastTileOnce) {
+    for (const LongFrame& frame : long_frames()) {
+        for (const int threads : {1, 3}) {
+            std::vector<std::size_t> told;
+            std::mutex mutex;
+            Renderer renderer({.threads = threads,
+                               .memory_cap = frame.memory_cap,
+                               .progress = [&](std::size_t done, std::size_t total) {
+                                   const std::lock_guard lock(mutex);
+                                   EXPECT_EQ(total, frame.tiles);
+                                   told.push_back(done);
+                               }});
+            Framebuffer target(kLongWidth, kLongHeight);
+            const FrameStats stats = renderer.render(frame.scene, target);
+            EXPECT_EQ(told.size(), frame.tiles * (stats.flushes + 1));
+            if (threads == 1) {
+                EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+            }
+            EXPECT_EQ(std::count(told.begin(), told.end(), frame.tiles), 1);
+            EXPECT_EQ(*std::max_element(told.begin(), told.end()), frame.tiles);
+        }
     }
 }
 

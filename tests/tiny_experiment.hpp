@@ -6,60 +6,15 @@
 #include <vector>
 
 #include "lab/experiment/experiments.hpp"
-#include "tests/run_command.hpp"
+#include "tests/tiny_experiment_files.hpp"
 
 namespace burnish {
 
-/// 2 x 2 cells of 40 x 30 pixels, a sphere each.
-class ExperimentCommand : public Command {
+class ExperimentCommand : public TinyExperiment {
   protected:
     void SetUp() override {
-        Command::SetUp();
-        std::filesystem::create_directory(path("scenes"));
-        write_scene("scenes/ball.toml", "material = \"metal\"\n[[materials]]\nname = \"metal\"\n");
-        write_experiment("");
-    }
-
-    void write_experiment(const std::string& more, const std::string& file = "scenes/ball.toml") {
-        write(path("tiny.toml"), R"(schema = 1
-title = "Tiny & small"
-hypothesis = "A machine is not exact."
-metrics = ["rmse", "bias", "flicker"]
-[[scenes]]
-name = "ball"
-file = ")" + file + R"("
-[[sweeps]]
-name = "machine"
-key = "machine.profile"
-values = ["nv2a", "ideal"]
-quick = ["ideal"]
-[[sweeps]]
-name = "width"
-variants = [
-  { label = 0.3, set = { "materials.metal.alpha_x" = 0.3 } },
-  { label = 0.6, set = { "materials.metal.alpha_x" = 0.6 } },
-]
-[pan]
-frames = 3
-samples = 4
-[reference]
-samples = 1
-set = { "machine.profile" = "double" }
-[[plots]]
-title = "errors"
-x = "width"
-y = "rmse"
-[[sheets]]
-title = "pictures"
-where = { machine = "nv2a", width = 0.3 }
-[[expect]]
-text = "nine bits are worse"
-metric = "rmse"
-measure = "ratio"
-where = { machine = "nv2a" }
-versus = { machine = "ideal" }
-at_least = 1
-)" + more);
+        TinyExperiment::SetUp();
+        write_tiny_experiment();
     }
 
     /// In this process, as most tests do: the command loads the libraries of files every time.

@@ -17,8 +17,8 @@ namespace {
 
 class TraceCommand : public Command {
   protected:
-    /// A quad over the left half of 8 x 4 pixels, half red; its alpha is 51.
-    void write_quad() {
+    /// A quad over 8 x 4 pixels from the left to `right`, half red; its alpha is 51.
+    void write_quad(const std::string& right = "4.0") {
         write(path("q.toml"), R"(schema = 1
 [output]
 width = 8
@@ -31,8 +31,8 @@ space = "window"
 primitive = "quads"
 vertices = [
   { position = [0.0, 0.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
-  { position = [4.0, 0.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
-  { position = [4.0, 4.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
+  { position = [)" + right + R"(, 0.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
+  { position = [)" + right + R"(, 4.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
   { position = [0.0, 4.0, 0.5], color0 = [0.5, 0.0, 0.0, 0.2] },
 ]
 )");
@@ -84,6 +84,41 @@ TEST_F(TraceCommand, JsonHasTheWholeRoad) {
     EXPECT_EQ(f["stages"].list.back()["name"].text, "final");
     EXPECT_NE(f["stages"].list.back()["text"].text.find("out.rgb = "), std::string::npos);
     EXPECT_EQ(numbers(f["codes"]), (std::vector<double>{128, 0, 0, 51}));
+}
+
+/// Of 2 x 2 samples those at 3.25 are in the quad, those at 3.75 beside it.
+TEST_F(TraceCommand, SamplesAreTracedOneByOneAndTheirMeanIsThePixel) {
+    write_quad("3.5");
+    const Json trace = json("q.toml --pixel 3,1 --samples 4");
+    EXPECT_EQ(numbers(trace["pixel"]), (std::vector<double>{3, 1}));
+    EXPECT_EQ(numbers(trace["size"]), (std::vector<double>{8, 4}));
+    ASSERT_EQ(trace["samples"].list.size(), 4U);
+    for (int i = 0; i < 4; ++i) {
+        const Json& sample = trace["samples"][static_cast<std::size_t>(i)];
+        const bool inside = i % 2 == 0;
+        EXPECT_EQ(numbers(sample["pixel"]), (std::vector<double>{6.0 + i % 2, 2.0 + i / 2}));
+        EXPECT_EQ(numbers(sample["size"]), (std::vector<double>{16, 8}));
+        EXPECT_EQ(sample["fragment"].kind == Json::Kind::null, !inside);
+        EXPECT_EQ(numbers(sample["stored"]),
+                  inside ? (std::vector<double>{128 * 257, 0, 0, 51 * 257})
+                         : (std::vector<double>{51 * 257, 102 * 257, 153 * 257, 65535}));
+    }
+    ASSERT_EQ(run("render q.toml --samples 4 -o q.png").code, 0);
+    const Image8 picture = load_image(path("q.png"));
+    const std::uint8_t* drawn = picture.rgba.data() + 4 * (1 * 8 + 3);
+    EXPECT_EQ(numbers(trace["stored"]), std::vector<double>(drawn, drawn + 4));
+    EXPECT_EQ(numbers(trace["stored"]), (std::vector<double>{90, 51, 77, 153}));
+
+    const std::string text = run("trace q.toml --pixel 3,1 --samples 4").out;
+    EXPECT_TRUE(
+        text.starts_with("pixel 3,1 of 8 x 4: the mean of 4 samples, which are rgba16 "
+                         "pixels of 16 x 8\n"))
+        << text;
+    EXPECT_SAYS(text, "\nsample 3  0.25, 0.75    32896  0      0      13107\n");
+    EXPECT_SAYS(text, "\nmean      rgba8         90     51     77     153\n");
+    EXPECT_SAYS(text, "\nsample 4 of 4\npixel 7,3 of 16 x 8, machine nv2a");
+    expect_failure("trace q.toml --pixel 3,1 --samples 25", 2, "expected 1, 4, 9 or 16");
+    expect_failure("trace q.toml --by-stage --samples 4", 2, "--samples with --by-stage");
 }
 
 TEST_F(TraceCommand, TextIsForAPerson) {

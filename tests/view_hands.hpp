@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <burnish/renderer.hpp>
@@ -34,13 +35,19 @@ class Hands {
             m_window = output_of("xdotool search --name burnish | head -n 1");
             if (m_window.empty()) pause(50);
         }
-        EXPECT_NE(m_window, "") << "no window";
+        if (m_window.empty()) throw Error(ErrorCode::io, "no window");
         // Screenshots of windows before are not this one's.
         for (const auto& entry : std::filesystem::directory_iterator(m_directory))
             m_seen.insert(entry.path());
     }
 
     void key(const std::string& name) { xdotool("key " + name); }
+    /// The window, by its own key: nothing can be done with it afterwards.
+    void close() {
+        key("Escape");
+        m_closed = true;
+    }
+    [[nodiscard]] bool has_closed() const { return m_closed; }
     void hold(const std::string& name) { xdotool("keydown " + name); }
     void release(const std::string& name) { xdotool("keyup " + name); }
     void type(const std::string& text) { xdotool("type --delay 20 '" + text + "'"); }
@@ -90,13 +97,15 @@ class Hands {
             << "xdotool " << what;
     }
 
-    Shot taken(const std::string& name) {
+    Shot taken(const std::string& shortcut) {
         pause(100);  // what was done before has arrived
-        key(name);
+        key(shortcut);
         for (int tries = 0; tries < 1200; ++tries) {
             for (const auto& entry : std::filesystem::directory_iterator(m_directory)) {
                 const std::filesystem::path file = entry.path();
-                if (file.filename().string().find("-view-") == std::string::npos ||
+                const std::string name = file.filename().string();
+                // One that is still being written begins with a point.
+                if (name.starts_with('.') || name.find("-view-") == std::string::npos ||
                     file.extension() != ".png" || !m_seen.insert(file).second)
                     continue;
                 return {file, load_image(file), load_view_state(file)};
@@ -109,6 +118,7 @@ class Hands {
 
     std::filesystem::path m_directory;
     std::string m_window;
+    bool m_closed = false;
     std::set<std::filesystem::path> m_seen;
 };
 
@@ -123,23 +133,36 @@ class ViewWindow : public ScratchDirectory {
         std::filesystem::current_path(directory());
     }
 
+    static Scene load(const std::filesystem::path& file) {
+        return file.extension() == ".toml" ? load_scene(file).scene : scene_for_mesh(file).scene;
+    }
+    static FrameStats draw(Renderer& renderer, const Scene& scene, int, Framebuffer& target) {
+        return renderer.render(scene, target);
+    }
+
     /// Shows `request` while another thread does `steps`, then closes the window if they did not.
     void show(ViewRequest request, const std::function<void(Hands&)>& steps) {
-        request.load = [](const std::filesystem::path& file) {
-            return file.extension() == ".toml" ? load_scene(file).scene
-                                               : scene_for_mesh(file).scene;
-        };
-        request.draw = [](Renderer& renderer, const Scene& scene, int, Framebuffer& target) {
-            return renderer.render(scene, target);
+        if (!request.load) request.load = load;
+        if (!request.draw) request.draw = draw;
+        // Hands send SDL events, too, which they may not before SDL is there.
+        std::atomic<bool> is_there{false};
+        request.draw = [&is_there, drawn = request.draw](Renderer& renderer, const Scene& scene,
+                                                         int side, Framebuffer& target) {
+            is_there = true;
+            return drawn(renderer, scene, side, target);
         };
         request.renderer.threads = 2;
         std::thread hands([&] {
+            bool has_closed = false;
             try {
+                for (int tries = 0; !is_there && tries < 1200; ++tries) Hands::pause(50);
                 Hands driver(directory());
                 steps(driver);
+                has_closed = driver.has_closed();
             } catch (const std::exception& error) {
                 ADD_FAILURE() << error.what();
             }
+            if (has_closed || !is_there) return;
             SDL_Event quit{};
             quit.type = SDL_QUIT;
             SDL_PushEvent(&quit);

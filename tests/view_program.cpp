@@ -10,6 +10,7 @@
 
 #include "lab/stage_bits.hpp"
 #include "tests/scene_file.hpp"
+#include "view/load_thread.hpp"
 #include "view/picture_thread.hpp"
 #include "view/session.hpp"
 
@@ -171,6 +172,23 @@ TEST_F(ViewProgram, AnErrorLeavesTheLastRightTextAndRevertTheModels) {
     EXPECT_EQ(session.find_edit("steel"), nullptr);
 }
 
+TEST_F(ViewProgram, RegistersAreExplained) {
+    scene(kSphere);
+    Session session = opened(path("s.toml"));
+    session.shows_programs = true;
+    session.edit_of("steel").model = Model::ward;
+    PictureMaker maker(draw_once, 1000.0);
+    const auto inputs = [&](Fineness fineness) {
+        return maker.make(*session.wish(false), fineness).programs.at(0).inputs;
+    };
+    EXPECT_EQ(inputs(Fineness::within_budget), "") << "while a hand moves there is no time";
+    const std::string text = inputs(Fineness::full);
+    EXPECT_SAYS(text, "col0.rgb  light_tangent\n");
+    EXPECT_SAYS(text, "tex1.rgb  X = (t / alpha_x)\n");
+    EXPECT_SAYS(text, "dot(v, n) = 0 .. 1\n");
+    EXPECT_EQ(inputs(Fineness::within_budget), text);
+}
+
 TEST_F(ViewProgram, AStateBringsTheEditBack) {
     scene(kSphere);
     Session session = opened(path("s.toml"));
@@ -253,7 +271,7 @@ TEST_F(ViewProgram, AMeshWithoutAMaterialHasTheDefaultOnesControls) {
 TEST_F(ViewProgram, AMessageGoesWithTheNextWishThatSucceeds) {
     scene(kSphere);
     Session session = opened(path("s.toml"));
-    session.try_open(path("nowhere.toml"));
+    session.take(loaded(loader(), {path("nowhere.toml"), LoadOrder::Purpose::open}));
     session.state.half_vector = "cube:0";
     EXPECT_FALSE(session.wish(false));
     EXPECT_SAYS(session.wish_message, "cube:0");
@@ -271,7 +289,7 @@ TEST_F(ViewProgram, ATraceStaysWithThePictureThatOvertakesIt) {
     std::mutex mutex;
     std::condition_variable changed;
     int pictures = 0;
-    PictureThread thread(PictureMaker(draw_once, 1000.0), [&] {
+    PictureThread thread(draw_once, 1000.0, [&] {
         const std::scoped_lock lock(mutex);
         ++pictures;
         changed.notify_one();

@@ -10,6 +10,7 @@
 #include "tests/scene_file.hpp"
 #include "view/file_watch.hpp"
 #include "view/frame_times.hpp"
+#include "view/load_thread.hpp"
 
 namespace burnish::view {
 namespace {
@@ -115,6 +116,10 @@ TEST(ViewPace, DividesSidesUntilAFrameFits) {
     EXPECT_EQ(pace.divisor("m", 0.81e6, 1), 2.125);
     EXPECT_EQ(pace.divisor("m", 1e12, 1), 16.0);
     EXPECT_GT(pace.divisor("m", 0.2e6, 2), 1.0);
+    // Of others 60 ns or what is said are guessed.
+    EXPECT_EQ(pace.divisor("n", 1e7 / 60.0, 1), 1.0);
+    EXPECT_EQ(pace.divisor("n", 1e7 / 60.0 + 1.0, 1), 1.125);
+    EXPECT_EQ(pace.divisor("n", 1e7 / 500.0, 1, 2000.0), 2.0);
 }
 
 TEST(ViewFrameTimes, QuantilesAndRate) {
@@ -279,17 +284,23 @@ TEST_F(ViewSession, StepsThroughTheDirectoryAndPassesOverWhatIsBroken) {
     write(path("notes.txt"), "");
     Session session(loader());
     session.open(path("a.toml"));
-    session.step_file(1);
+    const auto take = [&](const std::filesystem::path& input, LoadOrder::Purpose purpose) {
+        session.take(loaded(loader(), {input, purpose}));
+    };
+    const auto step = [&](int direction) {
+        take(neighbour(session.state.input, direction).value(), LoadOrder::Purpose::step);
+    };
+    step(1);
     EXPECT_EQ(session.state.input, path("b.toml"));
     EXPECT_SAYS(session.message, "schema");
-    session.step_file(1);
+    step(1);
     EXPECT_EQ(session.state.input, path("c.toml"));
     EXPECT_EQ(session.message, "");
-    session.step_file(1);
+    step(1);
     EXPECT_EQ(session.state.input, path("a.toml"));
-    session.step_file(-1);
+    step(-1);
     EXPECT_EQ(session.state.input, path("c.toml"));
-    session.try_open(path("not-there.toml"));
+    take(path("not-there.toml"), LoadOrder::Purpose::open);
     EXPECT_EQ(session.state.input, path("c.toml"));
     EXPECT_SAYS(session.message, "not-there.toml");
 }

@@ -10,6 +10,7 @@
 #include "app/picture.hpp"
 #include "app/progress.hpp"
 #include "app/stats.hpp"
+#include "app/supersample.hpp"
 #include "app/verbs.hpp"
 
 namespace burnish::app {
@@ -44,11 +45,12 @@ struct Measurement {
 Measurement measure(Renderer& renderer, const Scene& scene, Framebuffer& frame,
                     const BenchOptions& options) {
     Measurement result;
+    const int side = enlargement(options.samples_side, scene);
     Progress progress(options.picture.quiet);
     const int frames = kWarmUp + options.frames;
     for (int i = 0; i < frames; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        result.last = draw(renderer, scene, frame, options.shown);
+        result.last = draw_supersampled(renderer, scene, side, frame, options.shown);
         const std::chrono::duration<double, std::milli> time =
             std::chrono::steady_clock::now() - start;
         progress.done(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(frames));
@@ -73,9 +75,10 @@ std::vector<FrameStats> accounts(const BenchOptions& options, int threads, int f
     RendererOptions how = renderer_options(picture);
     how.accounting = true;
     Renderer renderer(how);
+    const int side = enlargement(options.samples_side, scene);
     std::vector<FrameStats> result;
     for (int i = 0; i < kWarmUp + frames; ++i) {
-        FrameStats stats = draw(renderer, scene, frame, options.shown);
+        FrameStats stats = draw_supersampled(renderer, scene, side, frame, options.shown);
         if (i >= kWarmUp) result.push_back(std::move(stats));
     }
     return result;
@@ -102,7 +105,10 @@ void report_balance(const BenchOptions& options, const Scene& scene, Framebuffer
 }  // namespace
 
 void run(const BenchOptions& options) {
-    Renderer renderer(renderer_options(options.picture));
+    const int samples = options.samples_side * options.samples_side;
+    RendererOptions how = renderer_options(options.picture);
+    how.double_samples = samples;
+    Renderer renderer(how);
     const Scene scene = load_picture(options.picture);
     Framebuffer frame(scene.width, scene.height, scene.format);
     if (options.balance) return report_balance(options, scene, frame);
@@ -119,12 +125,13 @@ void run(const BenchOptions& options) {
     }
     if (options.json) {
         fmt::print(
-            "{{\"input\": {}, \"width\": {}, \"height\": {}, \"machine\": {}, \"isa\": \"{}\", "
-            "\"threads\": {}, \"frames\": {}, \"median_ms\": {:.4f}, \"min_ms\": {:.4f}, "
+            "{{\"input\": {}, \"width\": {}, \"height\": {}, \"samples\": {}, \"machine\": {}, "
+            "\"isa\": \"{}\", \"threads\": {}, \"frames\": {}, \"median_ms\": {:.4f}, \"min_ms\": "
+            "{:.4f}, "
             "\"max_ms\": {:.4f}, \"p95_ms\": {:.4f}, \"geometry_ms\": {:.4f}, \"tiles_ms\": "
             "{:.4f}, \"mpixel_per_s\": {:.3f}, \"shaded_mpixel_per_s\": {:.3f}, \"last_frame\": "
             "{}}}\n",
-            json_string(options.picture.input.string()), scene.width, scene.height,
+            json_string(options.picture.input.string()), scene.width, scene.height, samples,
             json_string(scene.machine.name), renderer.isa(), renderer.threads(), options.frames,
             times.median(), times.sorted.front(), times.sorted.back(), times.quantile(0.95),
             geometry, tiles, rate(pixels, times.median()), rate(shaded, times.median()),
@@ -132,14 +139,15 @@ void run(const BenchOptions& options) {
         return;
     }
     fmt::print(
-        "{}: {} x {}, machine {}, {}, {} thread{}, {} frames\n"
+        "{}: {} x {}{}, machine {}, {}, {} thread{}, {} frames\n"
         "frame     median {:.3f} ms, min {:.3f}, max {:.3f}, p95 {:.3f}\n"
         "stages    geometry {:.3f} ms, tiles {:.3f} ms (medians)\n"
         "rate      {:.1f} Mpixel/s of the picture, {:.1f} shaded Mpixel/s\n",
-        options.picture.input.string(), scene.width, scene.height, scene.machine.name,
-        renderer.isa(), renderer.threads(), renderer.threads() == 1 ? "" : "s", options.frames,
-        times.median(), times.sorted.front(), times.sorted.back(), times.quantile(0.95), geometry,
-        tiles, rate(pixels, times.median()), rate(shaded, times.median()));
+        options.picture.input.string(), scene.width, scene.height,
+        samples > 1 ? fmt::format(", {} samples", samples) : "", scene.machine.name, renderer.isa(),
+        renderer.threads(), renderer.threads() == 1 ? "" : "s", options.frames, times.median(),
+        times.sorted.front(), times.sorted.back(), times.quantile(0.95), geometry, tiles,
+        rate(pixels, times.median()), rate(shaded, times.median()));
     if (options.picture.verbose) fmt::print("{}", stats_text(measured.last, renderer, last_ms));
 }
 

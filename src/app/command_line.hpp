@@ -83,6 +83,7 @@ struct ViewOptions {
 struct TraceOptions {
     PictureOptions picture;
     std::optional<glm::ivec2> pixel;  ///< not negative; there is one unless by_stage
+    int samples_side = 1;             ///< samples per pixel: its square; 1 with by_stage
     bool by_stage = false;            ///< where the error comes from, instead of registers
     std::string bits;                 ///< of lab::set_stage_bits, after the machine's own
     std::string rounding;             ///< likewise; empty: the machine's
@@ -93,6 +94,7 @@ struct TraceOptions {
 struct BenchOptions {
     PictureOptions picture;
     int frames = 50;
+    int samples_side = 1;        ///< samples per pixel: its square
     std::optional<Shown> shown;  ///< --aov
     bool balance = false;        ///< instead of times
     bool json = false;

@@ -47,18 +47,6 @@ PixelFormat frame_format(const RenderOptions& options, const Scene& scene,
     return options.shown && floats ? PixelFormat::rgba32f : scene.format;
 }
 
-/// How many times larger a picture is drawn to be averaged. The double renderer takes its samples
-/// itself.
-int enlargement(const RenderOptions& options, const Scene& scene) {
-    if (scene.machine.double_precision) return 1;
-    const int side = options.samples_side;
-    if (side > 4)
-        throw Error(ErrorCode::bad_option,
-                    fmt::format("--samples {}, expected 1, 4, 9 or 16 with machine {}", side * side,
-                                scene.machine.name));
-    return side;
-}
-
 /// The lines that tell what was done. They leave standard output to data when there is any.
 void report(const RenderOptions& options, const std::string& name, const Framebuffer& frame,
             const FrameStats& stats, const Renderer& renderer, bool double_precision,
@@ -136,7 +124,7 @@ void run(const RenderOptions& options) {
     };
     Renderer renderer(how);
     const Scene scene = load_picture(options.picture);
-    const int side = enlargement(options, scene);
+    const int side = enlargement(options.samples_side, scene);
     Framebuffer frame(scene.width, scene.height, frame_format(options, scene, pattern));
     Check check(options);
     for (int i = first; i <= last; ++i) {
@@ -152,7 +140,6 @@ void run(const RenderOptions& options) {
         save_image(frame, name);
         check.compare(name);
         ++drawn;
-        if (!scene.machine.double_precision) progress.done(drawn, count);
         if (i < last) continue;
         progress.finish();
         report(options, pattern, frame, stats, renderer, scene.machine.double_precision, frame_ms);

@@ -10,19 +10,6 @@
 namespace burnish::app {
 namespace {
 
-Scene enlarged(const Scene& scene, int side) {
-    Scene large = scene;
-    for (Object& object : large.objects) {
-        auto* raw = std::get_if<RawVertices>(&object.geometry);
-        if (raw == nullptr || raw->space != Space::window) continue;
-        for (RawVertex& vertex : raw->vertices) {
-            vertex.position.x *= static_cast<float>(side);
-            vertex.position.y *= static_cast<float>(side);
-        }
-    }
-    return large;
-}
-
 template <class T>
 T channel_at(const Framebuffer& frame, int x, int y, int channel) {
     T value;
@@ -55,6 +42,41 @@ std::uint32_t sum_u16(const Framebuffer& large, int side, int x, int y, int chan
     return sum;
 }
 
+}  // namespace
+
+int enlargement(int side, const Scene& scene) {
+    if (scene.machine.double_precision) return 1;
+    if (side > 4)
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("--samples {}, expected 1, 4, 9 or 16 with machine {}", side * side,
+                                scene.machine.name));
+    return side;
+}
+
+Scene enlarged(const Scene& scene, int side) {
+    Scene large = scene;
+    if (side == 1) return large;
+    if (scene.width * side > Framebuffer::kMaxSize || scene.height * side > Framebuffer::kMaxSize)
+        throw Error(
+            ErrorCode::limit,
+            fmt::format("{} x {} pixels with {} samples each, expected at most {} a side with "
+                        "that many",
+                        scene.width, scene.height, side * side, Framebuffer::kMaxSize / side));
+    large.width *= side;
+    large.height *= side;
+    large.format =
+        scene.format == PixelFormat::rgba32f ? PixelFormat::rgba32f : PixelFormat::rgba16;
+    for (Object& object : large.objects) {
+        auto* raw = std::get_if<RawVertices>(&object.geometry);
+        if (raw == nullptr || raw->space != Space::window) continue;
+        for (RawVertex& vertex : raw->vertices) {
+            vertex.position.x *= static_cast<float>(side);
+            vertex.position.y *= static_cast<float>(side);
+        }
+    }
+    return large;
+}
+
 void shrink(const Framebuffer& large, int side, Framebuffer& target) {
     const auto count = static_cast<std::uint32_t>(side * side);
     for (int y = 0; y < target.height(); ++y) {
@@ -76,26 +98,19 @@ void shrink(const Framebuffer& large, int side, Framebuffer& target) {
     }
 }
 
-}  // namespace
-
 FrameStats draw_supersampled(Renderer& renderer, const Scene& scene, int side, Framebuffer& target,
                              const std::optional<Shown>& shown) {
     if (side == 1) return draw(renderer, scene, target, shown);
     if (shown && std::holds_alternative<Aov>(*shown) && std::get<Aov>(*shown) == Aov::triangle)
         throw Error(ErrorCode::bad_option,
                     "--samples with --aov triangle, expected one: numbers have no mean");
-    if (target.width() * side > Framebuffer::kMaxSize ||
-        target.height() * side > Framebuffer::kMaxSize)
-        throw Error(
-            ErrorCode::limit,
-            fmt::format("{} x {} pixels with {} samples each, expected at most {} a side with "
-                        "that many",
-                        target.width(), target.height(), side * side,
-                        Framebuffer::kMaxSize / side));
-    const PixelFormat format =
-        target.format() == PixelFormat::rgba32f ? PixelFormat::rgba32f : PixelFormat::rgba16;
-    Framebuffer large(target.width() * side, target.height() * side, format);
-    const FrameStats stats = draw(renderer, enlarged(scene, side), large, shown);
+    Scene wanted = scene;
+    wanted.width = target.width();
+    wanted.height = target.height();
+    wanted.format = target.format();
+    wanted = enlarged(wanted, side);
+    Framebuffer large(wanted.width, wanted.height, wanted.format);
+    const FrameStats stats = draw(renderer, wanted, large, shown);
     shrink(large, side, target);
     return stats;
 }

@@ -4,10 +4,13 @@
 #include <burnish/trace.hpp>
 #include <cstdio>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "app/by_stage.hpp"
 #include "app/picture.hpp"
 #include "app/progress.hpp"
+#include "app/supersample.hpp"
 #include "app/trace_print.hpp"
 #include "app/verbs.hpp"
 
@@ -57,15 +60,31 @@ void run(const TraceOptions& options) {
         throw Error(ErrorCode::bad_option,
                     fmt::format("--pixel {},{}, expected one inside the picture of {} x {} pixels",
                                 pixel.x, pixel.y, scene.width, scene.height));
-    Framebuffer frame(scene.width, scene.height, scene.format);
-    draw(renderer, scene, frame);
-    const PixelTrace trace = trace_pixel(scene, pixel.x, pixel.y);
-    require_same_pixel(trace, frame);
+    const int side = enlargement(options.samples_side, scene);
+    const Scene large = enlarged(scene, side);
+    Framebuffer frame(large.width, large.height, large.format);
+    draw(renderer, large, frame);
+    std::vector<PixelTrace> samples;
+    for (int i = 0; i < side * side; ++i) {
+        const glm::ivec2 at = pixel * side + glm::ivec2(i % side, i / side);
+        require_same_pixel(samples.emplace_back(trace_pixel(large, at.x, at.y)), frame);
+        progress.done(samples.size(), static_cast<std::size_t>(side * side));
+    }
     progress.finish();
-    if (options.json)
-        fmt::print("{}\n", trace_json(trace, scene));
-    else
-        fmt::print("{}", trace_text(trace, scene));
+    if (side == 1) {
+        fmt::print("{}", options.json ? trace_json(samples.front(), scene) + "\n"
+                                      : trace_text(samples.front(), scene));
+        return;
+    }
+    Framebuffer means(scene.width, scene.height, scene.format);
+    shrink(frame, side, means);
+    const TracedSamples traced{.x = pixel.x,
+                               .y = pixel.y,
+                               .side = side,
+                               .samples = std::move(samples),
+                               .stored = pixel_of(means, pixel.x, pixel.y)};
+    fmt::print("{}", options.json ? samples_json(traced, scene, large) + "\n"
+                                  : samples_text(traced, scene, large));
 }
 
 }  // namespace burnish::app

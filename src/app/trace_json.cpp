@@ -161,4 +161,13 @@ std::string trace_json(const PixelTrace& trace, const Scene& scene) {
         json_list(trace.below, fragment_json), format_name(trace.format), json_list(trace.stored));
 }
 
+std::string samples_json(const TracedSamples& traced, const Scene& scene, const Scene& large) {
+    return fmt::format(
+        "{{\"pixel\": [{}, {}], \"size\": [{}, {}], \"samples\": {}, \"format\": \"{}\", "
+        "\"stored\": {}}}",
+        traced.x, traced.y, scene.width, scene.height,
+        json_list(traced.samples, [&](const PixelTrace& t) { return trace_json(t, large); }),
+        format_name(scene.format), json_list(traced.stored));
+}
+
 }  // namespace burnish::app

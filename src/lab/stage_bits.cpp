@@ -339,7 +339,7 @@ BitRenderer::BitRenderer(const Scene& scene, int threads) {
 }
 BitRenderer::~BitRenderer() = default;
 
-Framebuffer BitRenderer::render(const StageBits& bits) {
+Framebuffer BitRenderer::render(const StageBits& bits, const FrameHooks& hooks) {
     check(bits);
     State& s = *m_state;
     s.make_grids(bits);
@@ -347,17 +347,21 @@ Framebuffer BitRenderer::render(const StageBits& bits) {
     fill(target, s.scene.background);
     const std::int32_t columns = (s.size.width + kTileSize - 1) / kTileSize,
                        rows = (s.size.height + kTileSize - 1) / kTileSize;
-    for_each_index(
-        s.pool, static_cast<std::size_t>(columns * rows), 1, [&](std::size_t tile, int worker) {
-            const auto i = static_cast<std::int32_t>(tile);
-            s.for_each_fragment(
-                i % columns, i / columns, s.visibility[static_cast<std::size_t>(worker)],
-                [&](const SetupTriangle& triangle, int x, int y) {
-                    const glm::vec4 color(glm::vec3(s.shade(bits, triangle, x, y)), 1.0F);
-                    std::memcpy(target.row(y) + static_cast<std::size_t>(x) * sizeof color, &color,
-                                sizeof color);
-                });
-        });
+    const auto tiles = static_cast<std::size_t>(columns * rows);
+    TileWatch watch(hooks, tiles);
+    for_each_index(s.pool, tiles, 1, [&](std::size_t tile, int worker) {
+        if (!watch.go_on()) return;
+        const auto i = static_cast<std::int32_t>(tile);
+        s.for_each_fragment(
+            i % columns, i / columns, s.visibility[static_cast<std::size_t>(worker)],
+            [&](const SetupTriangle& triangle, int x, int y) {
+                const glm::vec4 color(glm::vec3(s.shade(bits, triangle, x, y)), 1.0F);
+                std::memcpy(target.row(y) + static_cast<std::size_t>(x) * sizeof color, &color,
+                            sizeof color);
+            });
+        watch.tile_done();
+    });
+    watch.require_wanted();
     return target;
 }
 
@@ -385,9 +389,10 @@ const CombinerProgram& BitRenderer::program(std::size_t object) const {
     return m_state->draws.at(object).front()->program;
 }
 
-Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads) {
+Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads,
+                             const FrameHooks& hooks) {
     check(bits);
-    return BitRenderer(scene, threads).render(bits);
+    return BitRenderer(scene, threads).render(bits, hooks);
 }
 
 }  // namespace burnish::lab

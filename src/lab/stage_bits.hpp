@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/quantiser.hpp"
+#include "core/tile_watch.hpp"
 #include "trace/table_grid.hpp"
 
 /// A picture whose numbers are exact but at chosen stages: which of them costs how much.
@@ -61,8 +62,9 @@ class BitRenderer {
 
     /// rgba32f, alpha 1 where there is a surface, else the scene's background; one sample at the
     /// centre of each pixel. Throws Error{bad_option} for bits outside 1 .. 24, of combiners 2
-    /// .. 24, and for details of tables where a material has a program of its own.
-    Framebuffer render(const StageBits& bits);
+    /// .. 24, and for details of tables where a material has a program of its own, Error{stopped}
+    /// when the hooks say so.
+    Framebuffer render(const StageBits& bits, const FrameHooks& hooks = {});
     /// Red, green and blue of pixel (x, y) of the frame; nothing where it shows the background.
     std::optional<glm::dvec3> pixel(const StageBits& bits, int x, int y);
 
@@ -77,6 +79,7 @@ class BitRenderer {
 };
 
 /// One picture. Throws what BitRenderer throws.
-Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads = 0);
+Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads = 0,
+                             const FrameHooks& hooks = {});
 
 }  // namespace burnish::lab

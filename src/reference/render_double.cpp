@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <burnish/error.hpp>
 #include <chrono>
 #include <cmath>
@@ -242,12 +241,14 @@ class Tile {
             draw(i, samples);
     }
 
-    /// Returns the number of samples that show something.
-    std::uint64_t shade(const std::vector<Sample>& samples, const PixelSink& sink) const {
+    /// Returns the number of samples that show something. A row of many samples takes milliseconds:
+    /// the caller's wish is asked for before each.
+    std::uint64_t shade(const std::vector<Sample>& samples, const PixelSink& sink,
+                        TileWatch& watch) const {
         const auto count = static_cast<std::size_t>(m_frame.pattern.count());
         std::uint64_t shaded = 0;
         const Sample* sample = samples.data();
-        for (int y = 0; y < m_height; ++y) {
+        for (int y = 0; y < m_height && watch.go_on(); ++y) {
             for (int x = 0; x < m_width; ++x) {
                 glm::dvec4 sum(0.0);
                 for (std::size_t s = 0; s < count; ++s, ++sample) {
@@ -302,8 +303,7 @@ class Tile {
 }  // namespace
 
 FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern& pattern,
-                  WorkerPool& pool, const PixelSink& sink,
-                  const std::function<void(std::size_t, std::size_t)>& progress) {
+                  WorkerPool& pool, const PixelSink& sink, const FrameHooks& hooks) {
     FrameStats stats;
     const Clock::time_point start = Clock::now();
     ProjectionCounts counts;
@@ -323,16 +323,18 @@ FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern&
     std::vector<std::uint64_t> shaded(workers, 0);
     stats.tiles_per_worker.resize(workers, 0);
     const std::size_t count = static_cast<std::size_t>(columns) * frame.rows.size();
-    std::atomic<std::size_t> done = 0;
+    TileWatch watch(hooks, count);
     for_each_index(pool, count, 1, [&](std::size_t index, int worker) {
         const auto w = static_cast<std::size_t>(worker);
         const auto i = static_cast<int>(index);
         const Tile tile(frame, i % columns, i / columns);
+        if (!watch.go_on()) return;
         tile.find_visible(samples[w]);
-        shaded[w] += tile.shade(samples[w], sink);
+        shaded[w] += tile.shade(samples[w], sink, watch);
         ++stats.tiles_per_worker[w];
-        if (progress) progress(done.fetch_add(1) + 1, count);
+        watch.tile_done();
     });
+    watch.require_wanted();
     for (const std::uint64_t samples_shaded : shaded) stats.shaded_pixels += samples_shaded;
     stats.tiles_ms = milliseconds_since(tiles);
     return stats;
@@ -395,7 +397,7 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
                 store(color, target.format(),
                       target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
             },
-            options.progress);
+            options.hooks);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::limit, fmt::format("out of memory for a frame of {}x{} pixels with "
                                                   "{} samples each",

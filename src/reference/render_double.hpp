@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/parallel.hpp"
+#include "core/tile_watch.hpp"
 #include "reference/double_scene.hpp"
 #include "reference/projected.hpp"
 #include "reference/sample_pattern.hpp"
@@ -22,8 +23,7 @@ struct DoubleOptions {
     /// With a layer machine: also corners where it snaps them to, and texel coordinates in its
     /// steps of 1/256, downwards.
     bool machine_grid = false;
-    /// Of tiles: done, of how many; called by any worker, several at a time.
-    std::function<void(std::size_t, std::size_t)> progress = {};
+    FrameHooks hooks = {};
 };
 inline constexpr int kMaxDoubleSamples = 1024;
 
@@ -32,7 +32,7 @@ inline constexpr int kMaxDoubleSamples = 1024;
 /// clamped to 0 .. 1 and to the nearest code. The result does not depend on the number of workers.
 /// Throws Error{bad_program} for what is not an opaque mesh with a reflectance model,
 /// Error{bad_option} for a camera that sees nothing or for `samples`, Error{limit} if memory runs
-/// out. FrameStats::shaded_pixels counts samples.
+/// out, Error{stopped} when the hooks say so. FrameStats::shaded_pixels counts samples.
 FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& pool,
                          const DoubleOptions& options = {});
 
@@ -43,8 +43,7 @@ using PixelSink = std::function<void(int, int, const glm::dvec4&)>;
 
 /// The same without frame: every pixel in double precision.
 FrameStats render(const DoubleScene& scene, FrameSize size, const SamplePattern& pattern,
-                  WorkerPool& pool, const PixelSink& sink,
-                  const std::function<void(std::size_t, std::size_t)>& progress = {});
+                  WorkerPool& pool, const PixelSink& sink, const FrameHooks& hooks = {});
 
 }  // namespace reference
 }  // namespace burnish

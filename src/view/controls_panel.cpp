@@ -33,7 +33,8 @@ void file_controls(const Session& session, const Picture* picture) {
 
 void machine_controls(Session& session) {
     ViewState& state = session.state;
-    choose_word("machine", machine_profile_names(), kAsScene, state.machine);
+    choose_word("machine", machine_profile_names(), "scene's: " + session.loaded().machine.name,
+                state.machine);
 
     std::string half_vector = state.half_vector.value_or("");
     if (choose_word("half vector", {"pixel", "vertex", "cube:64"}, kAsScene, half_vector)) {
@@ -130,7 +131,7 @@ void controls_panel(Session& session, const Picture* picture) {
         worker_controls(session);
         bits_controls(session.state.bits);
         ImGui::Separator();
-        material_controls(session);
+        material_controls(session, picture);
         ImGui::Separator();
         ImGui::TextUnformatted("H: all keys");
         ImGui::PopItemWidth();

@@ -112,8 +112,11 @@ void EditedMaterials::update(Kept& kept, const Material& loaded, const MaterialE
     const bool same_mipmaps = std::exchange(kept.mipmaps, mipmaps) == mipmaps;
     kept.errors.clear();
     if (loaded.program) {
+        if (edit.combiners == kept.pipeline) return;
         auto material = edit.combiners ? edited_pipeline(edit, loaded, kept.errors) : nullptr;
-        if (kept.errors.empty()) kept.material = std::move(material);
+        if (!kept.errors.empty()) return;
+        kept.material = std::move(material);
+        kept.pipeline = edit.combiners;
         return;
     }
     if (without_program(before) != without_program(edit) || !same_mipmaps)

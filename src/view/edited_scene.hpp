@@ -31,6 +31,7 @@ class EditedMaterials {
         MaterialEdit edit;
         std::optional<MaterialMipmaps> mipmaps;
         std::shared_ptr<const Material> material;      ///< null: the loaded one
+        std::optional<std::string> pipeline;           ///< the text that it was made of
         std::shared_ptr<const EditedProgram> program;  ///< of a model; null: its own
         std::vector<ProgramError> errors;
     };

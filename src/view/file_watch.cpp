@@ -1,5 +1,8 @@
 #include "view/file_watch.hpp"
 
+#include <burnish/error.hpp>
+#include <burnish/files.hpp>
+
 namespace burnish::view {
 namespace {
 
@@ -17,6 +20,14 @@ void FileWatch::watch(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) {
         const Time time = written(file);
         m_files.push_back({file, time, time});
+    }
+}
+
+void FileWatch::watch_input(const std::filesystem::path& input) {
+    try {
+        watch(input_files(input));
+    } catch (const Error&) {
+        watch({input});
     }
 }
 

@@ -11,6 +11,8 @@ class FileWatch {
   public:
     /// From now on these.
     void watch(const std::vector<std::filesystem::path>& files);
+    /// A scene or mesh and the files that it names; of one that cannot be read itself alone.
+    void watch_input(const std::filesystem::path& input);
     /// Whether one was written, came or went since the last call, or since `watch`. A file that is
     /// being written counts once it has kept its time from one call to the next.
     bool changed();

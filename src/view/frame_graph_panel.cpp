@@ -9,7 +9,7 @@ namespace burnish::view {
 
 void frame_graph_panel(const FrameTimes& times, const Picture* picture) {
     ImGui::SetNextWindowPos(ImGui::GetIO().DisplaySize, ImGuiCond_FirstUseEver, ImVec2(1.0F, 1.0F));
-    ImGui::SetNextWindowSize(ImVec2(340.0F, 0.0F), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(380.0F, 430.0F), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("frames")) {
         std::vector<float> intervals;
         std::vector<float> draws;

@@ -2,8 +2,11 @@
 
 #include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "models/compile_model.hpp"
 
 namespace burnish::view {
 
@@ -12,9 +15,20 @@ struct MaterialProgram {
     std::string material;  ///< its name
     std::string text;      ///< of print_combiners, in the scene's first light
     std::string error;     ///< why there is none; empty: there is
+    std::string inputs;    ///< what its registers begin with, a line each; empty: not known yet
 };
 
-/// Of every material with a model in `scene`, each name once.
-std::vector<MaterialProgram> programs_of_models(Renderer& renderer, const Scene& scene);
+/// Programs of models for a panel, compiled again where something changed.
+class MaterialPrograms {
+  public:
+    /// Of every material with a model in `scene`, each name once.
+    /// @param anew  what registers begin with is looked at again, which compiles models of their
+    ///              own; else it is what it was the last time
+    std::vector<MaterialProgram> of(Renderer& renderer, const Scene& scene, bool anew);
+
+  private:
+    CompiledModels m_models;
+    std::map<std::string, std::string> m_inputs;  ///< by material
+};
 
 }  // namespace burnish::view

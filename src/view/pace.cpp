@@ -6,8 +6,6 @@
 namespace burnish::view {
 namespace {
 
-/// Before anything was measured: a small picture, since a long frame cannot be taken back.
-constexpr double kUnknownNsPerPixel = 60.0;
 constexpr double kMostDivisor = 16.0;
 constexpr double kSteps = 8.0;
 /// Fixed costs beyond this share of the budget: a smaller picture would not help.
@@ -28,9 +26,9 @@ void Pace::took(const std::string& machine, double pixels, double ms, double fix
     known->second.ns_per_pixel = followed(known->second.ns_per_pixel, now);
 }
 
-double Pace::divisor(const std::string& machine, double pixels, int shares) const {
+double Pace::divisor(const std::string& machine, double pixels, int shares, double guess_ns) const {
     const auto known = m_costs.find(machine);
-    const Cost cost = known == m_costs.end() ? Cost{0.0, kUnknownNsPerPixel} : known->second;
+    const Cost cost = known == m_costs.end() ? Cost{0.0, guess_ns} : known->second;
     const double budget = m_budget_ms / shares;
     const double allowed = 1e6 * (budget - std::min(cost.fixed_ms, kMostFixed * budget));
     const double ratio = std::sqrt(pixels * cost.ns_per_pixel / allowed);

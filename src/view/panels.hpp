@@ -21,7 +21,9 @@ struct OpenPanels {
 /// File, machine, filter, mip method, threads, materials.
 void controls_panel(Session& session, const Picture* picture);
 /// Model and parameters of the scene's materials, inside the panel before.
-void material_controls(Session& session);
+void material_controls(Session& session, const Picture* picture);
+/// A header that opens: the material's name, bright and opened where a pixel of it is traced.
+bool material_header(const Material& material, bool open, const Picture* picture);
 /// Every register after every stage at the traced pixel.
 void trace_panel(Session& session, const Picture* picture);
 /// The program of a material as text that may be edited, with what is wrong at its line.

@@ -117,15 +117,16 @@ int side_of(Fineness fineness) {
 Renderer& PictureMaker::renderer_for(const RendererOptions& options) {
     if (!m_renderer || options.threads != m_options.threads || options.isa != m_options.isa ||
         options.accounting != m_options.accounting) {
-        m_renderer = std::make_unique<Renderer>(options);
         m_options = options;
+        m_options.stop = m_stop;
+        m_renderer = std::make_unique<Renderer>(m_options);
     }
     return *m_renderer;
 }
 
 Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Picture& picture) {
     if (has_bits(wish, scene.machine))
-        return lab::render_with_bits(scene, bits_of(wish), wish.renderer.threads);
+        return lab::render_with_bits(scene, bits_of(wish), wish.renderer.threads, {.stop = m_stop});
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
     picture.stats = renderer_for(wish.renderer).render(scene, frame);
     return frame;
@@ -134,6 +135,7 @@ Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Pic
 const Framebuffer& PictureMaker::truth_of(const Wish& wish, Scene scene) {
     if (m_truth && m_truth_id == wish.id && m_truth->width() == scene.width) return *m_truth;
     scene.machine = double_precision(scene.machine);
+    m_truth_id = 0;  // nobody's, should it be stopped
     m_truth.emplace(scene.width, scene.height, PixelFormat::rgba32f);
     renderer_for(wish.renderer).render(scene, *m_truth);
     m_truth_id = wish.id;
@@ -159,7 +161,7 @@ Framebuffer PictureMaker::draw_with_edits(const Wish& wish, Scene& scene, int si
     try {
         return draw_frame(wish, scene, side, picture);
     } catch (const Error& error) {
-        if (!drop_edits(scene)) throw;
+        if (error.code() == ErrorCode::stopped || !drop_edits(scene)) throw;
         note = std::string(error.what()) + "; the model's own is drawn";
     }
     Framebuffer frame = draw_frame(wish, scene, side, picture);
@@ -181,9 +183,12 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         const std::string pace = wish.heat_map                   ? "error"
                                  : has_bits(wish, scene.machine) ? "bits"
                                                                  : scene.machine.name;
+        const bool in_double =
+            wish.heat_map || !wish.bits.empty() || scene.machine.double_precision;
         if (fineness == Fineness::within_budget && can_shrink(scene))
             report.divisor = m_pace.divisor(pace, static_cast<double>(scene.width) * scene.height,
-                                            static_cast<int>(wish.panes.size()));
+                                            static_cast<int>(wish.panes.size()),
+                                            in_double ? Pace::kDoubleNs : Pace::kMachineNs);
         scene.width = static_cast<int>(std::ceil(scene.width / report.divisor));
         scene.height = static_cast<int>(std::ceil(scene.height / report.divisor));
         const int side = side_of(fineness);
@@ -193,11 +198,20 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         m_pace.took(pace, static_cast<double>(scene.width) * scene.height * report.samples,
                     report.ms, picture.stats.geometry_ms);
     } catch (const Error& error) {
+        if (error.code() == ErrorCode::stopped) throw;
         report.error = error.what();
     } catch (const std::bad_alloc&) {
         report.error = "out of memory";
     }
     if (!report.error.empty()) fill_columns(columns, picture.frame);
+}
+
+std::vector<MaterialProgram> PictureMaker::programs_of(const Wish& wish, Fineness fineness) {
+    Scene scene = *wish.scene;
+    // As its pane has it, which may draw programs in passes.
+    for (const Pane& pane : wish.panes)
+        if (pane.machine.name == scene.machine.name) scene.machine = pane.machine;
+    return m_programs.of(renderer_for(wish.renderer), scene, fineness == Fineness::full);
 }
 
 Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
@@ -206,15 +220,13 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     picture.id = wish.id;
     picture.fineness = fineness;
     picture.panes.resize(wish.panes.size());
+    if (!wish.heat_map) m_truth.reset();
     for (std::size_t i = wish.panes.size(); i-- > 0;) draw_pane(wish, fineness, i, picture);
     picture.ms = ms_since(start);
-    if (wish.programs) {
-        Scene scene = *wish.scene;
-        // As its pane has it, which may draw programs in passes.
-        for (const Pane& pane : wish.panes)
-            if (pane.machine.name == scene.machine.name) scene.machine = pane.machine;
-        picture.programs = programs_of_models(renderer_for(wish.renderer), scene);
-    }
+    if (wish.programs)
+        picture.programs = programs_of(wish, fineness);
+    else
+        m_programs = {};
     if (!wish.pixel || fineness != Fineness::full) return picture;
     try {
         Scene scene = *wish.scene;

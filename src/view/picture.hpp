@@ -76,9 +76,12 @@ using DrawSamples =
 /// Draws wishes, one call at a time.
 class PictureMaker {
   public:
-    PictureMaker(DrawSamples draw, double budget_ms) : m_draw(std::move(draw)), m_pace(budget_ms) {}
+    /// `stop` as RendererOptions has it.
+    PictureMaker(DrawSamples draw, double budget_ms, std::function<bool()> stop = {})
+        : m_draw(std::move(draw)), m_pace(budget_ms), m_stop(std::move(stop)) {}
 
-    /// Never throws for what a scene or machine cannot do: that is told pane by pane.
+    /// What a scene or machine cannot do is told pane by pane. Throws Error{stopped} when `stop`
+    /// says so.
     Picture make(const Wish& wish, Fineness fineness);
 
   private:
@@ -92,12 +95,15 @@ class PictureMaker {
     /// With the edited programs of `scene`, or with the models' own if one of them does not run.
     Framebuffer draw_with_edits(const Wish& wish, Scene& scene, int side, PaneReport& report,
                                 Picture& picture);
+    std::vector<MaterialProgram> programs_of(const Wish& wish, Fineness fineness);
     Renderer& renderer_for(const RendererOptions& options);
 
     DrawSamples m_draw;
     Pace m_pace;
+    std::function<bool()> m_stop;
     std::unique_ptr<Renderer> m_renderer;
     RendererOptions m_options;
+    MaterialPrograms m_programs;
     std::optional<Framebuffer> m_truth;
     std::uint64_t m_truth_id = 0;  ///< of its wish
 };

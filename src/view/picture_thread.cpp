@@ -1,75 +1,53 @@
 #include "view/picture_thread.hpp"
 
+#include <burnish/error.hpp>
+
 namespace burnish::view {
 
-PictureThread::PictureThread(PictureMaker maker, std::function<void()> ready)
-    : m_maker(std::move(maker)), m_ready(std::move(ready)), m_thread([this] { run(); }) {}
+PictureThread::PictureThread(DrawSamples draw, double budget_ms, std::function<void()> ready)
+    : m_maker(std::move(draw), budget_ms, [this] { return is_unwanted(); }),
+      m_ready(std::move(ready)),
+      m_thread([this] { run(); }) {}
 
 PictureThread::~PictureThread() {
-    {
-        const std::scoped_lock lock(m_mutex);
-        m_stop = true;
-    }
-    m_changed.notify_one();
+    m_wishes.close();
     m_thread.join();
 }
 
-void PictureThread::wish(Wish wish) {
-    {
-        const std::scoped_lock lock(m_mutex);
-        m_wish = std::move(wish);
+bool PictureThread::is_unwanted() const {
+    return m_wishes.is_closed() || (m_wishes.is_full() && !m_is_first);
+}
+
+void PictureThread::refine(const Wish& wish) {
+    std::optional<Fineness> fineness = Fineness::within_budget;
+    std::shared_ptr<const PixelTrace> trace;
+    std::string trace_error;
+    m_is_first = true;
+    while (fineness) {
+        Picture picture = m_maker.make(wish, *fineness);
+        // Kept here: a finer picture may come before the window took the one with the trace.
+        if (*fineness == Fineness::full) {
+            trace = picture.trace;
+            trace_error = picture.trace_error;
+        } else if (*fineness > Fineness::full) {
+            picture.trace = trace;
+            picture.trace_error = trace_error;
+        }
+        fineness = finer(wish, picture);
+        picture.is_last = !fineness;
+        m_pictures.put(std::move(picture));
+        m_ready();
+        m_is_first = false;
+        if (is_unwanted()) return;
     }
-    m_changed.notify_one();
-}
-
-std::optional<Picture> PictureThread::take() {
-    const std::scoped_lock lock(m_mutex);
-    std::optional<Picture> picture = std::move(m_picture);
-    m_picture.reset();
-    return picture;
-}
-
-std::optional<Wish> PictureThread::next_wish() {
-    std::unique_lock lock(m_mutex);
-    m_changed.wait(lock, [this] { return m_stop || m_wish; });
-    if (m_stop) return std::nullopt;
-    std::optional<Wish> wish = std::move(m_wish);
-    m_wish.reset();
-    return wish;
-}
-
-bool PictureThread::has_newer() {
-    const std::scoped_lock lock(m_mutex);
-    return m_stop || m_wish;
-}
-
-void PictureThread::deliver(Picture picture) {
-    {
-        const std::scoped_lock lock(m_mutex);
-        m_picture = std::move(picture);
-    }
-    m_ready();
 }
 
 void PictureThread::run() {
-    while (std::optional<Wish> wish = next_wish()) {
-        std::optional<Fineness> fineness = Fineness::within_budget;
-        std::shared_ptr<const PixelTrace> trace;
-        std::string trace_error;
-        while (fineness) {
-            Picture picture = m_maker.make(*wish, *fineness);
-            // Kept here: a finer picture may come before the window took the one with the trace.
-            if (*fineness == Fineness::full) {
-                trace = picture.trace;
-                trace_error = picture.trace_error;
-            } else if (*fineness > Fineness::full) {
-                picture.trace = trace;
-                picture.trace_error = trace_error;
-            }
-            fineness = finer(*wish, picture);
-            picture.is_last = !fineness;
-            deliver(std::move(picture));
-            if (has_newer()) break;
+    while (const std::optional<Wish> wish = m_wishes.wait()) {
+        try {
+            refine(*wish);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::stopped) throw;
         }
     }
 }

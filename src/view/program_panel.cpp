@@ -66,7 +66,7 @@ void follow_cursor(const std::string& text, int cursor, float top) {
 /// it.
 bool edit_text(const Session& session, const std::string& material, std::string& text) {
     constexpr float kFewestLines = 8.0F;
-    constexpr float kLinesBelow = 4.5F;  // the button, errors
+    constexpr float kLinesBelow = 6.0F;  // the button, errors, what is folded
     const float line = ImGui::GetTextLineHeight();
     const float whole =
         line * static_cast<float>(std::count(text.begin(), text.end(), '\n') + 2) + 8.0F;
@@ -115,6 +115,12 @@ const MaterialProgram* own_program(const Picture* picture, const std::string& ma
     return found == programs.end() ? nullptr : &*found;
 }
 
+void folded_text(const char* title, const std::string& text) {
+    if (text.empty() || !ImGui::TreeNode(title)) return;
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::TreePop();
+}
+
 void edit_model(Session& session, const Material& material, const Picture* picture) {
     const MaterialProgram* own = own_program(picture, material.name);
     const MaterialEdit* edit = session.find_edit(material.name);
@@ -131,10 +137,9 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
     }
     if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
     show_errors(session, material.name);
-    if (is_edited && own != nullptr && ImGui::TreeNode("the model's own")) {
-        ImGui::TextUnformatted(own->error.empty() ? own->text.c_str() : own->error.c_str());
-        ImGui::TreePop();
-    }
+    if (own == nullptr) return;
+    folded_text("what registers begin with", own->inputs);
+    if (is_edited) folded_text("the model's own", own->error.empty() ? own->text : own->error);
 }
 
 }  // namespace
@@ -142,7 +147,7 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
 void program_panel(Session& session, const Picture* picture) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(display.x, 0.0F), ImGuiCond_FirstUseEver, ImVec2(1.0F, 0.0F));
-    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.7F * display.y),
+    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.55F * display.y),
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("program")) {
         if (picture != nullptr) {
@@ -153,8 +158,7 @@ void program_panel(Session& session, const Picture* picture) {
         int number = 0;
         for (const std::shared_ptr<const Material>& material : session.materials()) {
             ImGui::PushID(number++);
-            if (ImGui::CollapsingHeader(material->name.c_str(),
-                                        number == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+            if (material_header(*material, number == 1, picture)) {
                 if (material->program)
                     edit_pipeline(session, *material);
                 else

@@ -23,8 +23,7 @@ void Session::show(Scene scene, const std::filesystem::path& input) {
     message.clear();
 }
 
-void Session::open(const std::filesystem::path& input) {
-    Scene scene = m_load(input);
+void Session::show_as_it_is(Scene scene, const std::filesystem::path& input) {
     const int width = state.width;
     const int height = state.height;
     state = state_of(scene, input);
@@ -33,38 +32,26 @@ void Session::open(const std::filesystem::path& input) {
     show(std::move(scene), input);
 }
 
+void Session::open(const std::filesystem::path& input) {
+    show_as_it_is(m_load(input), input);
+}
+
 void Session::open(const ViewState& saved) {
     Scene scene = m_load(saved.input);
     state = saved;
     show(std::move(scene), saved.input);
 }
 
-void Session::try_open(const std::filesystem::path& input) {
-    try {
-        open(input);
-    } catch (const Error& error) {
-        message = error.what();
+void Session::take(Loaded loaded) {
+    const std::filesystem::path& input = loaded.order.input;
+    if (loaded.scene && loaded.order.purpose == LoadOrder::Purpose::again) {
+        show(std::move(*loaded.scene), input);
+    } else if (loaded.scene) {
+        show_as_it_is(std::move(*loaded.scene), input);
+    } else {
+        message = loaded.error;
+        if (loaded.order.purpose == LoadOrder::Purpose::step) state.input = input;
     }
-}
-
-void Session::reload() {
-    try {
-        show(m_load(state.input), state.input);
-    } catch (const Error& error) {
-        message = error.what();
-    }
-}
-
-void Session::step_file(int direction) {
-    const std::vector<std::filesystem::path> files = neighbours(state.input);
-    const auto here = std::find(files.begin(), files.end(), state.input);
-    if (files.size() < 2 || here == files.end()) return;
-    const auto count = static_cast<std::ptrdiff_t>(files.size());
-    const std::ptrdiff_t next = (here - files.begin() + direction + count) % count;
-    // One that cannot be read is passed over: the message names it, and the next step goes on.
-    const std::filesystem::path chosen = files[static_cast<std::size_t>(next)];
-    try_open(chosen);
-    if (!message.empty()) state.input = chosen;
 }
 
 void Session::reset_camera() {
@@ -182,6 +169,14 @@ std::vector<Machine> split_machines() {
         machines.back().multipass = !machines.back().double_precision;
     }
     return machines;
+}
+
+std::optional<std::filesystem::path> neighbour(const std::filesystem::path& input, int direction) {
+    const std::vector<std::filesystem::path> files = neighbours(input);
+    const auto here = std::find(files.begin(), files.end(), input);
+    if (files.size() < 2 || here == files.end()) return std::nullopt;
+    const auto count = static_cast<std::ptrdiff_t>(files.size());
+    return files[static_cast<std::size_t>((here - files.begin() + direction + count) % count)];
 }
 
 std::vector<std::filesystem::path> neighbours(const std::filesystem::path& input) {

@@ -9,12 +9,32 @@
 #include <vector>
 
 #include "view/edited_scene.hpp"
+#include "view/file_watch.hpp"
 #include "view/orbit.hpp"
 #include "view/picture.hpp"
 
 namespace burnish::view {
 
 using LoadScene = std::function<Scene(const std::filesystem::path&)>;
+
+/// An input that is to be read while another one is shown.
+struct LoadOrder {
+    std::filesystem::path input;
+    enum class Purpose {
+        open,   ///< as it is
+        again,  ///< camera, machine and edits stay
+        step,   ///< as `open`; one that cannot be read is passed over by the next step
+    } purpose = Purpose::open;
+    bool operator==(const LoadOrder&) const = default;
+};
+
+/// What came of it.
+struct Loaded {
+    LoadOrder order;
+    std::optional<Scene> scene;
+    std::string error;  ///< one line, where there is no scene
+    FileWatch files;    ///< of the input, from before it was read
+};
 
 /// What is looked at and how: all of the viewer but its window. What cannot be done leaves
 /// everything as it was and says so in `message` or `wish_message`.
@@ -27,12 +47,8 @@ class Session {
     void open(const std::filesystem::path& input);
     /// A saved state and its input. Throws likewise.
     void open(const ViewState& state);
-    /// The same two for an input that a hand dropped: failures become `message`.
-    void try_open(const std::filesystem::path& input);
-    /// Reads the input again and keeps the rest of the state.
-    void reload();
-    /// The next (1) or previous (-1) scene or mesh of the input's directory, around its end.
-    void step_file(int direction);
+    /// What LoadThread read, as it was ordered; a failure becomes `message`.
+    void take(Loaded loaded);
     /// The camera and the light that the input has.
     void reset_camera();
     void look_from(Side side);
@@ -70,6 +86,7 @@ class Session {
 
   private:
     void show(Scene scene, const std::filesystem::path& input);
+    void show_as_it_is(Scene scene, const std::filesystem::path& input);
 
     LoadScene m_load;
     Scene m_loaded;
@@ -80,6 +97,10 @@ class Session {
 
 /// The machines of a split picture, from left to right.
 std::vector<Machine> split_machines();
+
+/// The next (1) or previous (-1) scene or mesh of the directory of `input`, around its end; nothing
+/// where it is the only one.
+std::optional<std::filesystem::path> neighbour(const std::filesystem::path& input, int direction);
 
 /// Scenes and meshes in the directory of `input`, sorted by name, `input` among them.
 std::vector<std::filesystem::path> neighbours(const std::filesystem::path& input);

@@ -126,7 +126,8 @@ void layers(const PixelTrace& trace) {
 void trace_panel(Session& session, const Picture* picture) {
     if (!session.state.pixel) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(0.0F, display.y), ImGuiCond_FirstUseEver, ImVec2(0.0F, 1.0F));
+    // Beside the controls and below the program, where the window has room.
+    ImGui::SetNextWindowPos(display, ImGuiCond_FirstUseEver, ImVec2(1.0F, 1.0F));
     ImGui::SetNextWindowSize(
         ImVec2(std::min(1010.0F, display.x), std::max(300.0F, 0.45F * display.y)),
         ImGuiCond_FirstUseEver);

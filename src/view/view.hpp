@@ -13,9 +13,11 @@ namespace burnish::view {
 
 struct ViewRequest {
     std::filesystem::path input;  ///< empty with `load_state`
-    /// Reads a scene or mesh with the command's other options applied. Throws Error.
+    /// Reads a scene or mesh with the command's other options applied. Throws Error. One thread at
+    /// a time calls, not always the same.
     std::function<Scene(const std::filesystem::path&)> load;
-    /// Renders with that many samples per pixel, squared (view/picture.hpp). Throws Error.
+    /// Renders with that many samples per pixel, squared (view/picture.hpp). Throws Error. Called
+    /// from a thread of its own.
     std::function<FrameStats(Renderer&, const Scene&, int side, Framebuffer&)> draw;
     std::optional<glm::ivec2> size;    ///< of the window; else the scene's or the state's
     RendererOptions renderer;          ///< threads and instruction set to begin with

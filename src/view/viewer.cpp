@@ -27,6 +27,9 @@ constexpr int kClickPixels = 3;
 constexpr int kLinePixels = 6;
 /// Panels need a frame to take an event in and one to come to rest.
 constexpr int kDrawsAfterEvent = 3;
+/// After so many frames they know whether a click chose a text, for which keys behind it are.
+constexpr int kFocusDraws = 2;
+constexpr const char* kTitle = "burnish";
 
 double now_ms() {
     return std::chrono::duration<double, std::milli>(
@@ -34,15 +37,15 @@ double now_ms() {
         .count();
 }
 
-Uint32 picture_event() {
+Uint32 wake_event() {
     static const Uint32 type = SDL_RegisterEvents(1);
     return type;
 }
 
-/// Wakes the window's thread.
-void tell_of_picture() {
+/// The window's thread, from another one.
+void wake() {
     SDL_Event event{};
-    event.type = picture_event();
+    event.type = wake_event();
     SDL_PushEvent(&event);
 }
 
@@ -80,9 +83,15 @@ ViewState with_absolute_input(ViewState state) {
 Viewer::Viewer(const ViewRequest& request, Session session)
     : m_request(request),
       m_session(std::move(session)),
-      m_window("burnish", {m_session.state.width, m_session.state.height}),
-      m_pictures(PictureMaker(request.draw, kBudgetMs), tell_of_picture) {
+      m_window(kTitle, {m_session.state.width, m_session.state.height}),
+      m_loads(request.load, wake),
+      m_pictures(request.draw, kBudgetMs, wake) {
+    m_watch.watch_input(m_session.state.input);
     m_session.renderer = request.renderer;
+}
+
+Viewer::~Viewer() {
+    m_window.hide();
 }
 
 bool Viewer::is_moving() const {
@@ -90,7 +99,7 @@ bool Viewer::is_moving() const {
 }
 
 bool Viewer::is_at_rest() const {
-    return m_picture && m_picture->is_last && m_picture->id == m_wish && !is_moving();
+    return m_picture && m_picture->is_last && m_picture->id == m_wish && !m_order && !is_moving();
 }
 
 std::optional<std::size_t> Viewer::line_at(int x) const {
@@ -126,12 +135,11 @@ void Viewer::act(Action action) {
             m_wants_window_shot = true;
             return;
         case Action::next_file:
-            return m_session.step_file(1);
+            return step_file(1);
         case Action::previous_file:
-            return m_session.step_file(-1);
+            return step_file(-1);
         case Action::reload:
-            m_asked.reset();
-            return m_session.reload();
+            return read_again();
         case Action::split:
             state.split = !state.split;
             return;
@@ -236,13 +244,13 @@ void Viewer::handle(const SDL_Event& event) {
             if (!io.WantCaptureMouse) m_session.zoom(zoom_of(static_cast<float>(event.wheel.y)));
             break;
         case SDL_DROPFILE:
-            m_session.try_open(event.drop.file);
+            order({event.drop.file});
             SDL_free(event.drop.file);
             break;
         default:
             break;
     }
-    if (event.type != picture_event()) m_draws = kDrawsAfterEvent;
+    if (event.type != wake_event()) m_draws = kDrawsAfterEvent;
 }
 
 void Viewer::wait_for_events() {
@@ -254,31 +262,52 @@ void Viewer::wait_for_events() {
         // are made.
         const bool is_button = event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP;
         if (is_button) draw();
+        const bool is_key = event.type == SDL_KEYDOWN || event.type == SDL_KEYUP;
+        while (is_key && m_focus_draws > 0) draw();
         handle(event);
+        if (is_button) m_focus_draws = kFocusDraws;
         // Dear ImGui sees what is pressed as it makes panels: a key that came and went between two
         // frames would be lost.
-        const bool is_key = event.type == SDL_KEYDOWN || event.type == SDL_KEYUP;
         if (is_key && ImGui::GetIO().WantTextInput) draw();
     } while (SDL_PollEvent(&event) != 0);
 }
 
 void Viewer::look_at_files() {
     const double now = now_ms();
-    if (m_watched != m_session.state.input) {
-        m_watched = m_session.state.input;
-        try {
-            m_watch.watch(input_files(m_watched));
-        } catch (const Error&) {
-            m_watch.watch({m_watched});
-        }
-    }
     if (now - m_looked_ms < kWatchMs) return;
     m_looked_ms = now;
-    if (!m_watch.changed()) return;
-    m_watched.clear();
+    if (m_watch.changed()) read_again();
+}
+
+void Viewer::order(LoadOrder order) {
+    m_window.set_title(fmt::format("burnish: reading {}", order.input.filename().string()));
+    m_order = order;
+    m_loads.order(std::move(order));
+}
+
+void Viewer::read_again() {
+    const LoadOrder again{m_session.state.input, LoadOrder::Purpose::again};
+    order(m_order.value_or(again));
+}
+
+void Viewer::step_file(int direction) {
+    const auto next = neighbour(m_order ? m_order->input : m_session.state.input, direction);
+    if (next) order({*next, LoadOrder::Purpose::step});
+}
+
+void Viewer::take_loaded() {
+    std::optional<Loaded> loaded = m_loads.take();
+    if (!loaded) return;
+    if (loaded->order == m_order) {
+        m_order.reset();
+        m_window.set_title(kTitle);
+    }
+    const std::filesystem::path input = loaded->order.input;
+    FileWatch files = std::move(loaded->files);
+    m_session.take(std::move(*loaded));
+    if (m_session.state.input == input) m_watch = std::move(files);
     m_asked.reset();
     m_draws = kDrawsAfterEvent;
-    m_session.reload();
 }
 
 void Viewer::ask_for_picture() {
@@ -337,6 +366,7 @@ void Viewer::save_screenshot() {
 }
 
 void Viewer::draw() {
+    if (m_focus_draws > 0) --m_focus_draws;
     m_window.begin_panels();
     const Picture* picture = m_picture ? &*m_picture : nullptr;
     picture_overlay(m_session, picture);
@@ -354,6 +384,7 @@ void Viewer::run() {
     while (m_running) {
         wait_for_events();
         look_at_files();
+        take_loaded();
         ask_for_picture();
         take_picture();
         if (m_draws > 0) {

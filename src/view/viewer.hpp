@@ -9,6 +9,7 @@
 #include "view/file_watch.hpp"
 #include "view/frame_times.hpp"
 #include "view/keys.hpp"
+#include "view/load_thread.hpp"
 #include "view/panels.hpp"
 #include "view/picture_thread.hpp"
 #include "view/session.hpp"
@@ -22,6 +23,10 @@ namespace burnish::view {
 class Viewer {
   public:
     Viewer(const ViewRequest& request, Session session);
+    /// The window is gone at once, a file that is being read is waited for.
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
     /// Until the window is closed.
     void run();
 
@@ -33,6 +38,10 @@ class Viewer {
     void handle_motion(const SDL_MouseMotionEvent& event);
     void act(Action action);
     void look_at_files();
+    void order(LoadOrder order);
+    void read_again();
+    void step_file(int direction);
+    void take_loaded();
     void ask_for_picture();
     void take_picture();
     void draw();
@@ -45,6 +54,7 @@ class Viewer {
     const ViewRequest& m_request;
     Session m_session;
     Window m_window;
+    LoadThread m_loads;
     PictureThread m_pictures;
     FileWatch m_watch;
     FrameTimes m_times;
@@ -60,11 +70,12 @@ class Viewer {
         friend bool operator==(const Asked&, const Asked&) = default;
     };
 
-    std::uint64_t m_wish = 0;         ///< number of the last wish
-    std::optional<Asked> m_asked;     ///< what the last wish was about; nothing: ask again
-    std::filesystem::path m_watched;  ///< the input whose files are watched
-    double m_looked_ms = 0.0;         ///< when they were looked at
-    int m_draws = 0;                  ///< frames until the panels have come to rest
+    std::uint64_t m_wish = 0;          ///< number of the last wish
+    std::optional<Asked> m_asked;      ///< what the last wish was about; nothing: ask again
+    std::optional<LoadOrder> m_order;  ///< the last one, while it is being read
+    double m_looked_ms = 0.0;          ///< when files were looked at
+    int m_draws = 0;                   ///< frames until the panels have come to rest
+    int m_focus_draws = 0;             ///< frames until they know where a click's keys go
     bool m_panels = true;
     bool m_running = true;
     bool m_wants_shot = false;  ///< as soon as the picture is at rest

@@ -113,6 +113,10 @@ void Window::set_title(const std::string& title) {
     SDL_SetWindowTitle(m_handles->window, title.c_str());
 }
 
+void Window::hide() {
+    SDL_HideWindow(m_handles->window);
+}
+
 void Window::follow_surface() {
     SDL_Surface* surface = SDL_GetWindowSurface(m_handles->window);
     if (surface == nullptr) fail("no pixels");

@@ -20,6 +20,7 @@ class Window {
 
     [[nodiscard]] glm::ivec2 size() const;
     void set_title(const std::string& title);
+    void hide();
 
     /// Begins a frame of Dear ImGui; panels are made between this and `show`.
     void begin_panels();

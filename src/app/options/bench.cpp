@@ -21,6 +21,7 @@ Verb bench_verb() {
          {.names = "--balance",
           .text = "Instead of the times: how evenly tiles would keep 1 .. 64 workers busy",
           .set = flag_to(options->balance)},
+         samples_option(options->samples_side),
          json_option(options->json),
          shown_option(options->shown)}};
     return {.name = "bench",

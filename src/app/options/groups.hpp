@@ -19,6 +19,9 @@ OptionGroup camera_options(CameraOptions& camera);
 /// --aov
 Option shown_option(std::optional<Shown>& shown);
 
+/// --samples, a square up to 1024, as its root.
+Option samples_option(int& side);
+
 /// --threads
 Option threads_option(int& threads);
 

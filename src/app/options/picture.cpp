@@ -190,6 +190,18 @@ std::vector<OptionGroup> with_picture_options(PictureOptions& picture,
     return groups;
 }
 
+Option samples_option(int& side) {
+    return {.names = "--samples",
+            .value = "N",
+            .text = "Samples per pixel: 1, 4, 9 or 16; with profile double any square up to 1024",
+            .normal = fmt::format("{}", side * side),
+            .set = [&side](const std::string& option, const std::string& text) {
+                for (side = 1; side <= 32; ++side)
+                    if (text == fmt::format("{}", side * side)) return;
+                refuse(option, text, "a square, 1 .. 1024");
+            }};
+}
+
 Option threads_option(int& threads) {
     return {.names = "--threads",
             .value = "N",

@@ -12,14 +12,6 @@
 namespace burnish::app {
 namespace {
 
-Set samples_to(int& side) {
-    return [&side](const std::string& option, const std::string& text) {
-        for (side = 1; side <= 32; ++side)
-            if (text == fmt::format("{}", side * side)) return;
-        refuse(option, text, "a square, 1 .. 1024");
-    };
-}
-
 /// "A-B" or "A"
 Set frames_to(std::optional<FrameRange>& target) {
     return [&target](const std::string& option, const std::string& text) {
@@ -40,11 +32,7 @@ OptionGroup output_options(RenderOptions& options) {
           .normal = "INPUT's name with .png",
           .files = "png exr",
           .set = text_to(options.output)},
-         {.names = "--samples",
-          .value = "N",
-          .text = "Samples per pixel: 1, 4, 9 or 16; with profile double any square up to 1024",
-          .normal = "1",
-          .set = samples_to(options.samples_side)},
+         samples_option(options.samples_side),
          {.names = "--turntable",
           .value = "N",
           .text = "Pictures of one turn about the focal point; the output name holds {frame:4}",

@@ -24,6 +24,7 @@ OptionGroup pixel_options(TraceOptions& options) {
               .value = "X,Y",
               .text = "Column and row of the pixel; 0,0 is the upper left corner",
               .set = pixel_to(options.pixel)},
+             samples_option(options.samples_side),
              json_option(options.json)}};
 }
 
@@ -67,8 +68,9 @@ Verb trace_verb() {
         .examples =
             {{"How the middle pixel got its colour",
               "burnish trace meshes/brushed.toml --pixel 640,360"},
-             {"Another pixel, on the chip of 2001, as JSON",
-              "burnish trace meshes/knot.obj --machine nv2a --multipass --pixel 640,300 --json"},
+             {"Four samples of another pixel, on the chip of 2001, as JSON",
+              "burnish trace meshes/knot.obj --machine nv2a --multipass --pixel 640,300 "
+              "--samples 4 --json"},
              {"Which stages the picture's error comes from",
               "burnish trace meshes/knot.obj --machine nv2a --size 160x120 --by-stage"},
              {"The same of one pixel with ten bits everywhere",
@@ -76,6 +78,9 @@ Verb trace_verb() {
         .command = [options] {
             if (!options->pixel && !options->by_stage)
                 throw Error(ErrorCode::bad_option, "trace: expected --pixel X,Y or --by-stage");
+            if (options->by_stage && options->samples_side > 1)
+                throw Error(ErrorCode::bad_option,
+                            "--samples with --by-stage, expected one: at the centre of the pixel");
             return *options;
         }};
 }

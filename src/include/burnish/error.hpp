@@ -12,6 +12,7 @@ enum class ErrorCode {
     bad_program,  ///< a combiner program that the machine cannot run
     io,           ///< a file that cannot be opened, read, written or renamed
     limit,        ///< a size beyond what burnish handles, or memory that is not there
+    stopped,      ///< the caller's own wish: RendererOptions::stop
 };
 
 /// The one exception type that leaves the library.

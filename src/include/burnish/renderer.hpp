@@ -33,9 +33,14 @@ struct RendererOptions {
     int double_samples = 1;
     /// Fill FrameStats::stages, kernels and tile_costs. Frames then take a few per cent longer.
     bool accounting = false;
-    /// Called where Machine::double_precision is set after every tile of a frame: how many are
-    /// done, of how many. Any worker calls, several at a time.
+    /// Called after every tile of a frame: how many are done, of how many. Where memory_cap makes
+    /// several rounds of them, each counts as the part of the triangles that it draws. Any worker
+    /// calls, several at a time.
     std::function<void(std::size_t done, std::size_t total)> progress = {};
+    /// Asked before every tile and every longer step before them: true gives the frame up, render
+    /// throws Error{stopped} as soon as the tiles that were begun are done. Any worker asks,
+    /// several at a time; it must not throw.
+    std::function<bool()> stop = {};
 };
 
 /// A register of the combiners as the picture, instead of what the final combiner delivers.
@@ -136,7 +141,8 @@ class Renderer {
     /// meshes with a model only. Frames of floats are then not clamped to 1.
     /// Throws Error{bad_program} or Error{bad_option} for a material, machine or camera that cannot
     /// be drawn, Error{bad_option} for a frame of depths with Machine::double_precision,
-    /// Error{limit} if memory runs out; the contents of `target` are then unspecified.
+    /// Error{limit} if memory runs out, Error{stopped} when RendererOptions::stop says so; the
+    /// contents of `target` are then unspecified. The next frame is drawn as if nothing had been.
     FrameStats render(const Scene& scene, Framebuffer& target);
 
     /// The same picture with a register in place of its colours; the background stays.

@@ -277,7 +277,7 @@ struct EditedProgram {
 struct Object {
     std::variant<Mesh, RawVertices> geometry;
     std::shared_ptr<const Material> material;  ///< null: the default material
-    glm::mat4 world_from_object{1.0F};  ///< rotation, uniform scale, translation
+    glm::mat4 world_from_object{1.0F};         ///< rotation, uniform scale, translation
     RasterState raster;
     /// Of a material with a model; null: the model's own program. A frame cannot be drawn where the
     /// model is compiled to another program than EditedProgram::own, but for constants.
