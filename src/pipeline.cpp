@@ -119,6 +119,7 @@ struct Renderer::State {
     std::size_t memory_cap;
     int double_samples;
     FrameHooks hooks;
+    reference::SurfaceCache surfaces;
 
     FrameView frame{};
     bool depth_alone = false;  ///< the frame shows the depth buffer: fragments have no colours
@@ -156,7 +157,9 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target) {
         if (target.format() == PixelFormat::depth32f) require_machine(scene, "a frame of depths");
         scene.machine.validate();
         return render_double(scene, target, m_state->pool,
-                             {.samples = m_state->double_samples, .hooks = m_state->hooks});
+                             {.samples = m_state->double_samples,
+                              .hooks = m_state->hooks,
+                              .surfaces = &m_state->surfaces});
     }
     return render_shown(scene, target, std::nullopt, std::nullopt);
 }

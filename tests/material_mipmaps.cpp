@@ -11,6 +11,7 @@
 #include "models/texel.hpp"
 #include "reference/level_of_detail.hpp"
 #include "reference/render_double.hpp"
+#include "reference/surface_cache.hpp"
 #include "reference/surface_sampler.hpp"
 #include "tests/scene_file.hpp"
 
@@ -37,6 +38,40 @@ TEST(MaterialMipmaps, TexelsHaveTheLevelsOfTheMethod) {
     const auto levels = mips::parameter_mips([&](int x, int y) { return plain.at(x, y); }, 32, 32,
                                              mips::LobeShape(weave({})), {MipMethod::moments, 16});
     EXPECT_EQ(source.at(2, 7, 1).alpha_x, levels[1].at(7, 1).alpha_x);
+}
+
+// A material is worked out once while every frame has it.
+TEST(SurfaceCache, KeepsWhatIsDrawnAgain) {
+    const auto drawn =
+        std::make_shared<const Material>(weave(MaterialMipmaps{MipMethod::moments, 16}));
+    const auto same = std::make_shared<const Material>(*drawn);
+    reference::SurfaceCache cache;
+    const auto first = cache.of(drawn).surface;
+    ASSERT_TRUE(first);
+    EXPECT_NE(cache.of(same).surface, first) << "a material is what it is, not what it has";
+    cache.drop_unused();
+    EXPECT_EQ(cache.of(drawn).surface, first);
+    cache.drop_unused();
+    cache.drop_unused();
+    EXPECT_NE(cache.of(drawn).surface, first) << "a frame was without it";
+}
+
+TEST(SurfaceCache, FramesBeforeMakeNoDifference) {
+    Scene scene;
+    scene.machine = machine_profile("double");
+    scene.lights.push_back({.position = {0.3F, 0.8F, 0.5F}, .position_w = 0.0F});
+    scene.objects.push_back({Mesh(shapes::sphere(16, 8)), nullptr, glm::mat4(1.0F), {}});
+    Renderer renderer({.threads = 2});
+    for (const MipMethod method : {MipMethod::moments, MipMethod::none, MipMethod::moments}) {
+        scene.objects[0].material =
+            std::make_shared<const Material>(weave(MaterialMipmaps{method}, 64));
+        Framebuffer want(40, 30), got(40, 30);
+        Renderer({.threads = 1}).render(scene, want);
+        for (int frame = 0; frame < 2; ++frame) {
+            renderer.render(scene, got);
+            EXPECT_EQ(std::memcmp(got.row(0), want.row(0), got.pitch() * 30), 0);
+        }
+    }
 }
 
 // Maps with levels of their own, and a material that says nothing: what a machine keeps is

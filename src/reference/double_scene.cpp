@@ -28,19 +28,12 @@ std::vector<DoubleVertex> double_vertices(const Mesh& mesh) {
     return vertices;
 }
 
-std::shared_ptr<const SurfaceSampler> surface_of_material(
-    const Material& material, const std::optional<Machine>& layer_machine, bool machine_grid) {
-    if (material.model == Model::text) return nullptr;
-    if (!layer_machine) return exact_surface(material);
-    return layer_surface(material, material_layer(material, *layer_machine),
-                         machine_grid ? TexelSteps::machine : TexelSteps::exact);
-}
-
-std::shared_ptr<const TextModel> text_of_material(const Material& material,
-                                                  const std::optional<Machine>& layer_machine) {
-    if (material.model != Model::text) return nullptr;
-    if (!layer_machine) return std::make_shared<TextModel>(material);
-    return std::make_shared<TextModel>(material, material_layer(material, *layer_machine));
+ExactMaterial layer_material(const Material& material, const Machine& machine, bool machine_grid) {
+    const std::vector<LayerQuantity> layer = material_layer(material, machine);
+    if (material.model == Model::text)
+        return {nullptr, std::make_shared<TextModel>(material, layer)};
+    return {layer_surface(material, layer, machine_grid ? TexelSteps::machine : TexelSteps::exact),
+            nullptr};
 }
 
 std::optional<TexelGrid> shaded_texels(const Material& material, FilterOrder order,
@@ -57,7 +50,8 @@ std::optional<TexelGrid> shaded_texels(const Material& material, FilterOrder ord
 }
 
 DoubleObject double_object(const Object& object, FilterOrder order,
-                           const std::optional<Machine>& layer_machine, bool machine_grid) {
+                           const std::optional<Machine>& layer_machine, bool machine_grid,
+                           SurfaceCache* surfaces) {
     static const Material kDefault;
     const Material& material = object.material ? *object.material : kDefault;
     const auto* mesh = std::get_if<Mesh>(&object.geometry);
@@ -65,12 +59,19 @@ DoubleObject double_object(const Object& object, FilterOrder order,
     if (material.program) refuse(material, "a program");
     if (material.alpha_test.pass != Comparison::always) refuse(material, "an alpha test");
     if (object.raster.blend) refuse(material, "blending");
+    ExactMaterial drawn;
+    if (layer_machine)
+        drawn = layer_material(material, *layer_machine, machine_grid);
+    else if (surfaces != nullptr && object.material)
+        drawn = surfaces->of(object.material);
+    else
+        drawn = exact_material(material);
     return {double_vertices(*mesh),
             {mesh->indices().begin(), mesh->indices().end()},
             glm::dmat4(object.world_from_object),
             material.model,
-            surface_of_material(material, layer_machine, machine_grid),
-            text_of_material(material, layer_machine),
+            std::move(drawn.surface),
+            std::move(drawn.text),
             shaded_texels(material, order, machine_grid ? TexelSteps::machine : TexelSteps::exact),
             object.raster.depth_test,
             object.raster.depth_write,
@@ -80,7 +81,8 @@ DoubleObject double_object(const Object& object, FilterOrder order,
 }  // namespace
 
 DoubleScene double_scene(const Scene& scene, int width, int height,
-                         const std::optional<Machine>& layer_machine, bool machine_grid) {
+                         const std::optional<Machine>& layer_machine, bool machine_grid,
+                         SurfaceCache* surfaces) {
     DoubleScene out;
     if (layer_machine && machine_grid)
         out.grid = {std::ldexp(1.0, layer_machine->subpixel_bits), layer_machine->snap_floor};
@@ -97,8 +99,9 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
                               glm::dvec3(light.color) * static_cast<double>(light.intensity)});
     }
     for (const Object& object : scene.objects)
-        out.objects.push_back(
-            double_object(object, scene.machine.filter_order, layer_machine, machine_grid));
+        out.objects.push_back(double_object(object, scene.machine.filter_order, layer_machine,
+                                            machine_grid, surfaces));
+    if (surfaces != nullptr) surfaces->drop_unused();
     return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/camera.hpp"
+#include "reference/surface_cache.hpp"
 #include "reference/surface_sampler.hpp"
 #include "reference/text_model.hpp"
 
@@ -65,11 +66,11 @@ struct DoubleScene {
 
 /// `scene` for a frame of that size, filtered in its machine's order. Materials are exact, or the
 /// layer that `layer_machine` works from, texel for texel, with `machine_grid` at its coordinates
-/// (not for texts). Throws Error{bad_program} for an object that has no reflectance model or is not
-/// drawn by depth alone, Error{bad_option} for a camera that sees nothing, and what material_layer
-/// throws.
+/// (not for texts). `surfaces` has exact materials of the scenes before. Throws Error{bad_program}
+/// for an object that has no reflectance model or is not drawn by depth alone, Error{bad_option}
+/// for a camera that sees nothing, and what material_layer throws.
 DoubleScene double_scene(const Scene& scene, int width, int height,
                          const std::optional<Machine>& layer_machine = {},
-                         bool machine_grid = false);
+                         bool machine_grid = false, SurfaceCache* surfaces = nullptr);
 
 }  // namespace burnish::reference

@@ -391,7 +391,7 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
     try {
         return reference::render(
             reference::double_scene(scene, size.width, size.height, options.layer_machine,
-                                    options.machine_grid),
+                                    options.machine_grid, options.surfaces),
             size, pattern, pool,
             [&](int x, int y, const glm::dvec4& color) {
                 store(color, target.format(),

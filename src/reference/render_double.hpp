@@ -24,6 +24,7 @@ struct DoubleOptions {
     /// steps of 1/256, downwards.
     bool machine_grid = false;
     FrameHooks hooks = {};
+    reference::SurfaceCache* surfaces = nullptr;  ///< of the frames before; null: none
 };
 inline constexpr int kMaxDoubleSamples = 1024;
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <burnish/scene.hpp>
+#include <memory>
+#include <vector>
+
+#include "reference/surface_sampler.hpp"
+#include "reference/text_model.hpp"
+
+namespace burnish::reference {
+
+/// A material exactly as it is; one of the two, as its model has it.
+struct ExactMaterial {
+    std::shared_ptr<const SurfaceSampler> surface;
+    std::shared_ptr<const TextModel> text;  ///< of Model::text
+};
+
+/// Throws what exact_surface and TextModel throw.
+ExactMaterial exact_material(const Material& material);
+
+/// Exact materials, kept while they are drawn again: mip levels of parameters take a second for
+/// maps of a million texels.
+class SurfaceCache {
+  public:
+    /// Throws what exact_material throws.
+    ExactMaterial of(const std::shared_ptr<const Material>& material);
+    /// Forgets what was not asked for since the last call.
+    void drop_unused();
+
+  private:
+    struct Entry {
+        std::shared_ptr<const Material> material;
+        ExactMaterial exact;
+        bool used;
+    };
+    std::vector<Entry> m_entries;
+};
+
+}  // namespace burnish::reference
