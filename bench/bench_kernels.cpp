@@ -18,7 +18,7 @@
 
 /// Every stage of every table that this CPU can run: stage/<name>/<variant>/<isa>. Results are
 /// compared with the reference before anything is timed. Items are fragments, vertices for
-/// `transform` and `light_vertices`, triangles for `setup`, `rasterize_tiny` and
+/// `transform` and `light_vertices`, triangles for `setup`, `rasterize_tiny`, `rasterize_small` and
 /// `attribute_planes`, covered pixels for `rasterize`; `cycles` are those of the time-stamp counter
 /// per item, which runs at the CPU's nominal clock.
 namespace burnish {
@@ -393,51 +393,55 @@ void add_rasterize_depths() {
     }
 }
 
-/// The triangles of a sheet in the tile at the corner of the frame.
-std::vector<TileEntry> entries_of(const Sheet& sheet) {
+/// The triangles of a sheet in the tile at the corner of the frame: tiny ones that lie in it, or
+/// small ones that reach into it.
+std::vector<TileEntry> entries_of(const Sheet& sheet, bool tiny) {
     std::vector<TileEntry> entries;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sheet.counts.drawn); ++i) {
         const PixelRect& box = sheet.triangles[i].box;
-        if (sheet.places[i].covered == 0 || box.x1 >= kTileSize || box.y1 >= kTileSize) continue;
-        entries.push_back({sheet.places[i].covered, i, static_cast<std::uint8_t>(box.x0),
+        const std::uint64_t covered = sheet.places[i].covered;
+        const bool inside = box.x1 < kTileSize && box.y1 < kTileSize;
+        const bool reaches = box.x0 < kTileSize && box.y0 < kTileSize;
+        if (tiny ? covered == 0 || !inside : !reaches) continue;
+        entries.push_back({tiny ? covered : 0, i, static_cast<std::uint8_t>(box.x0),
                            static_cast<std::uint8_t>(box.y0), 0});
     }
     return entries;
 }
 
 /// Into depths that are cleared again each time: 16 KB.
-void add_rasterize_tiny() {
-    for (const auto& [name, size] : {std::pair{"2", 2.24F}, {"8", 4.0F}}) {
-        static std::vector<std::unique_ptr<Sheet>> sheets;
-        sheets.push_back(std::make_unique<Sheet>(size));
-        Sheet& sheet = *sheets.back();
-        table_reference().setup(sheet.context());
-        const std::vector<TileEntry> entries = entries_of(sheet);
-        const auto draw = [entries, &sheet](const KernelTable& table, Tile& tile, DepthRule rule) {
-            tile.drawn.resize(entries.size());
-            table.rasterize_tiny({entries.data(), static_cast<int>(entries.size()),
-                                  sheet.triangles.data(), rule, 0, 0, 0, tile.depth.data(),
-                                  tile.id.data(), tile.block_far.data(), tile.drawn.data()});
-        };
-        add(
-            std::string("rasterize_tiny/pixels_") + name, static_cast<std::int64_t>(entries.size()),
-            [=](const KernelTable& table) -> std::string {
-                Tile got, want;
-                draw(table, got, {1, 0, 0, 1});
-                draw(table_reference(), want, {1, 0, 0, 1});
-                got.id.back() = want.id.back();
-                got.depth.back() = want.depth.back();
-                return got.id == want.id && got.depth == want.depth ? "" : "ids or depths";
-            },
-            [=](const KernelTable& table, benchmark::State& state) {
-                Tile tile;
-                for (auto _ : state) {
-                    std::fill(tile.depth.begin(), tile.depth.end(), 1.0F);
-                    draw(table, tile, {1, 0, 0, 1});
-                    benchmark::ClobberMemory();
-                }
-            });
-    }
+void add_rasterize_entries(const std::string& name, float size, bool tiny) {
+    static std::vector<std::unique_ptr<Sheet>> sheets;
+    sheets.push_back(std::make_unique<Sheet>(size));
+    Sheet& sheet = *sheets.back();
+    table_reference().setup(sheet.context());
+    const std::vector<TileEntry> entries = entries_of(sheet, tiny);
+    const auto draw = [entries, tiny, &sheet](const KernelTable& table, Tile& tile) {
+        tile.drawn.resize(entries.size());
+        (tiny ? table.rasterize_tiny : table.rasterize_small)(
+            {entries.data(), static_cast<int>(entries.size()), sheet.triangles.data(),
+             DepthRule{1, 0, 0, 1}, 0, 0, 0, tile.depth.data(), tile.id.data(),
+             tile.block_far.data(), tile.drawn.data()});
+    };
+    add(
+        name, static_cast<std::int64_t>(entries.size()),
+        [=](const KernelTable& table) -> std::string {
+            Tile got, want;
+            draw(table, got);
+            draw(table_reference(), want);
+            got.id.back() = want.id.back();
+            got.depth.back() = want.depth.back();
+            return got.id == want.id && got.depth == want.depth ? "" : "ids or depths";
+        },
+        [=](const KernelTable& table, benchmark::State& state) {
+            Tile tile;
+            for (auto _ : state) {
+                std::fill(tile.depth.begin(), tile.depth.end(), 1.0F);
+                std::fill(tile.block_far.begin(), tile.block_far.end(), 1.0F);
+                draw(table, tile);
+                benchmark::ClobberMemory();
+            }
+        });
 }
 
 /// The fragments of squares(side), as `rasterize` left them.
@@ -1072,7 +1076,10 @@ int main(int argc, char** argv) {
     add_rasterize_depths();
     add_cover();
     add_clear();
-    add_rasterize_tiny();
+    add_rasterize_entries("rasterize_tiny/pixels_2", 2.24F, true);
+    add_rasterize_entries("rasterize_tiny/pixels_8", 4.0F, true);
+    add_rasterize_entries("rasterize_small/pixels_50", 10.0F, false);
+    add_rasterize_entries("rasterize_small/pixels_300", 24.0F, false);
     add_collect();
     add_attribute_planes();
     add_attributes();

@@ -16,6 +16,7 @@
 #include "bench/limits.hpp"
 #include "core/aligned.hpp"
 #include "core/cpu.hpp"
+#include "core/stage_clock.hpp"
 #include "image/stream.hpp"
 
 namespace burnish {
@@ -106,6 +107,30 @@ Limits measure_limits(const LimitLoops& loops) {
         stream_fence();
     });
     return limits;
+}
+
+/// Cycles per nanosecond: additions that wait for each other take one each.
+double measure_clock() {
+    constexpr long kCount = 1000000;
+    return best_rate(8.0 * kCount, [] {
+        long sum = 0;
+        for (long i = 0; i < kCount; ++i) {
+            for (int k = 0; k < 8; ++k) {
+                sum += i;
+                asm volatile("" : "+r"(sum));
+            }
+        }
+    });
+}
+
+/// Nanoseconds that reading the account's clock takes.
+double measure_reading() {
+    constexpr int kCount = 100000;
+    return 1.0 / best_rate(kCount, [] {
+               std::uint64_t sum = 0;
+               for (int i = 0; i < kCount; ++i) sum += ticks();
+               asm volatile("" : "+r"(sum));
+           });
 }
 
 /// What an item of a stage takes at least, whatever the kernels are like: elementary operations on
@@ -213,6 +238,51 @@ void print_table(const std::string& title, const FrameStats& frame, const Limits
                100.0 * limit_ms / ms);
 }
 
+/// Kernels that a fragment of the modified model goes through, by the beginning of their names, and
+/// what they are of its path.
+constexpr std::pair<const char*, const char*> kPixelPath[] = {
+    {"attributes", "interpolate"},
+    {"encode_", "interpolate"},
+    {"address", "3 bilinear textures"},
+    {"fetch_", "3 bilinear textures"},
+    {"portion_", "2 general stages"},
+    {"final_", "final"},
+    {"store_", "resolve"},
+};
+
+/// Cycles a fragment of the whole path; of what the account says of a kernel, reading the clock is
+/// taken off, once a call. The tile's pixels go to the frame with all that lies beside.
+void print_pixel_path(const FrameStats& frame, double clock, double reading_ns) {
+    std::vector<std::pair<std::string, double>> parts;
+    const auto add = [&](const std::string& part, double cycles) {
+        if (parts.empty() || parts.back().first != part) parts.emplace_back(part, 0.0);
+        parts.back().second += cycles;
+    };
+    double resolve_ms = 0.0, pixels = 1.0;
+    for (const StageCost& stage : frame.stages) {
+        if (stage.name != "resolve") continue;
+        resolve_ms = stage.ms;
+        pixels = static_cast<double>(stage.items);
+    }
+    const auto fragments = static_cast<double>(frame.shaded_pixels);
+    for (const auto& [prefix, part] : kPixelPath) {
+        for (const KernelCost& kernel : frame.kernels) {
+            if (!kernel.name.starts_with(prefix)) continue;
+            const double ns = 1e6 * kernel.ms - reading_ns * static_cast<double>(kernel.calls);
+            add(part, clock * ns / fragments);
+            if (kernel.stage == "resolve") resolve_ms -= kernel.ms;
+        }
+    }
+    add("resolve", clock * 1e6 * resolve_ms / pixels);
+    double sum = 0.0;
+    fmt::print("A pixel of the modified model, in cycles at {:.2f} GHz:", clock);
+    for (const auto& [part, cycles] : parts) {
+        fmt::print(" {} {:.2f},", part, cycles);
+        sum += cycles;
+    }
+    fmt::print(" together {:.1f}.\n\n", sum);
+}
+
 void run(const std::string& isa, double seconds) {
     const KernelTable& table = select_table(isa);
     const LimitLoops* loops = limit_loops(table);
@@ -226,8 +296,10 @@ void run(const std::string& isa, double seconds) {
         "frame at {:.0f} GB/s.\n\n",
         table.isa, limits.shorts, limits.floats, limits.pairs, limits.near, limits.far,
         limits.frame);
-    print_table("S1c, 20,448 triangles, 1920 x 1080",
-                typical_frame(ellipsoid_scene(144, 72, 1920, 1080), table.isa, seconds), limits);
+    const FrameStats frame =
+        typical_frame(ellipsoid_scene(144, 72, 1920, 1080), table.isa, seconds);
+    print_table("S1c, 20,448 triangles, 1920 x 1080", frame, limits);
+    print_pixel_path(frame, measure_clock(), measure_reading());
     print_table("S1c with 1,000,000 triangles",
                 typical_frame(ellipsoid_scene(1000, 501, 1920, 1080), table.isa, seconds), limits);
 }

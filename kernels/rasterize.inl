@@ -4,16 +4,15 @@ inline constexpr int kBlockVectors = kBlockPixels / kLanes32;
 inline constexpr int kRowVectors = kLanes32 >= kBlockSize ? 1 : kBlockSize / kLanes32;
 inline constexpr int kVectorRows = kLanes32 >= kBlockSize ? kLanes32 / kBlockSize : 1;
 
-/// Position of each lane inside its vector, and its bit.
+/// Position of each lane inside its vector.
 struct LanePositions {
-    alignas(64) std::int32_t x[16], y[16], bit[16];
+    alignas(64) std::int32_t x[16], y[16];
 };
 constexpr LanePositions make_lane_positions() {
     LanePositions lanes{};
     for (int i = 0; i < 16; ++i) {
         lanes.x[i] = i % kBlockSize;
         lanes.y[i] = i / kBlockSize;
-        lanes.bit[i] = 1 << i;
     }
     return lanes;
 }
@@ -24,11 +23,6 @@ inline I32 lane_x() {
 inline I32 lane_y() {
     return load(kLanePositions.y);
 }
-/// Lanes whose bits are set.
-inline Mask32 lanes_of(std::uint64_t bits) {
-    return (I32(static_cast<std::int32_t>(bits)) & load(kLanePositions.bit)) != I32(0);
-}
-
 /// What of a triangle's edges is the same in every block. A triangle with fewer than three edges
 /// has edges with a = b = c = 0 in their place, which have everything inside.
 struct TriangleEdges {
@@ -120,7 +114,8 @@ inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& ed
         masks.clamped |=
             static_cast<std::uint64_t>(bits(as_int((near_plane < low) | (far_plane > high))))
             << shift;
-        store(block_far + shift, updated_far(t, far, farthest, lanes_of(seen), whole));
+        store(block_far + shift,
+              updated_far(t, far, farthest, lanes_of(static_cast<std::uint32_t>(seen)), whole));
     }
     return masks;
 }
@@ -130,11 +125,15 @@ inline bool nearer_wins(const TileTriangle& t) {
     return t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
 }
 struct NearerWins {
-    static MaskF pass(const TileTriangle&, F32 z, F32 old) { return z < old; }
+    template <class Tested>
+    static MaskF pass(const Tested&, F32 z, F32 old) {
+        return z < old;
+    }
     static bool writes(const TileTriangle&) { return true; }
 };
 struct AnyRule {
-    static MaskF pass(const TileTriangle& t, F32 z, F32 old) {
+    template <class Tested>
+    static MaskF pass(const Tested& t, F32 z, F32 old) {
         MaskF pass(false);
         if (t.pass_less != 0) pass = z < old;
         if (t.pass_equal != 0) pass = pass | (z == old);

@@ -70,9 +70,11 @@ class FragmentRuns {
                 continue;
             }
             PixelPositions pixel[kColumnVectors];
-            for (int v = 0; v < kColumnVectors; ++v)
-                pixel[v] = positions(m_packet.pixels + i + v * kLanes32, I32(m_offset_x[run]),
-                                     I32(m_offset_y[run]));
+            pixel[0] = positions(m_packet.pixels + i, I32(m_offset_x[run]), I32(m_offset_y[run]));
+            // Whole numbers below 2^24: exact, however they are added.
+            for (int v = 1; v < kColumnVectors; ++v)
+                pixel[v] = {pixel[0].x,
+                            pixel[0].y + F32(static_cast<float>(v * kLanes32 / kBlockSize))};
             g(i, pixel, RowsOfOneRun{m_ctx.equations + run});
             i += kFragments;
         }

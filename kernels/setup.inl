@@ -1,19 +1,3 @@
-/// The bit of each lane.
-struct LaneBits {
-    alignas(64) std::int32_t bit[16];
-};
-constexpr LaneBits make_lane_bits() {
-    LaneBits lanes{};
-    for (int i = 0; i < 16; ++i) lanes.bit[i] = 1 << i;
-    return lanes;
-}
-constexpr LaneBits kLaneBits = make_lane_bits();
-
-/// The way back from `bits`.
-inline Mask32 lane_mask(std::uint32_t lanes) {
-    return (I32(static_cast<std::int32_t>(lanes)) & load(kLaneBits.bit)) != I32(0);
-}
-
 /// Corners of one triangle per lane.
 struct CornerLanes {
     I32 x, y;
@@ -240,8 +224,7 @@ void setup(const SetupCtx& ctx) noexcept {
             v[2].z = ::xsimd::select(negative, second.z, v[2].z);
 
             const I32 most(kTinySize - 1);
-            const Mask32 tiny =
-                (to_x - from_x <= most) & (to_y - from_y <= most) & lane_mask(lanes);
+            const Mask32 tiny = (to_x - from_x <= most) & (to_y - from_y <= most) & lanes_of(lanes);
             CoverageLanes covered{{zero, zero}};
             if (bits(tiny) != 0) {
                 const auto size = [&](I32 from, I32 to) {
@@ -294,7 +277,7 @@ void setup(const SetupCtx& ctx) noexcept {
                 const Columns place = transposed({{as_i16(covered.rows[0]), as_i16(covered.rows[1]),
                                                    as_i16(corner), as_i16(tiles)}});
                 write_places(place, lanes, reinterpret_cast<unsigned char*>(out_places));
-                bounds.add(corner, opposite, lane_mask(lanes));
+                bounds.add(corner, opposite, lanes_of(lanes));
                 const int drawn = __builtin_popcount(lanes);
                 out += drawn;
                 out_places += drawn;

@@ -162,6 +162,18 @@ inline MaskF as_float(Mask32 m) {
 inline std::uint32_t bits(Mask32 m) {
     return static_cast<std::uint32_t>(m.data);
 }
+/// The way back: lanes whose bits are set.
+inline Mask32 lanes_of(std::uint32_t lanes) {
+    return Mask32(static_cast<__mmask16>(lanes));
+}
+/// The bits of a block's 64 pixels, kLanes32 of them at a time.
+struct BlockLanes {
+    explicit BlockLanes(std::uint64_t pixels) : m_pixels(pixels) {}
+    Mask32 operator[](int vector) const {
+        return Mask32(static_cast<__mmask16>(m_pixels >> kLanes32 * vector));
+    }
+    std::uint64_t m_pixels;
+};
 inline I16 mul_round(I16 a, I16 b) {
     return _mm512_mulhrs_epi16(a, b);
 }
@@ -1163,6 +1175,20 @@ template <int Rows>
 #endif
 
 #if !defined(__AVX2__)
+/// Bits from the first on, and up to the last, which is one less than the index.
+struct RowBits {
+    std::uint64_t from[65], until[65];
+};
+constexpr RowBits make_row_bits() {
+    RowBits bits{};
+    for (int i = 0; i < 64; ++i) {
+        bits.from[i] = ~std::uint64_t{0} << i;
+        bits.until[i + 1] = ~std::uint64_t{0} >> (63 - i);
+    }
+    return bits;
+}
+constexpr RowBits kRowBits = make_row_bits();
+
 inline void store_block_rows(const I32 (&first)[2], const I32 (&last)[2], std::uint64_t* to) {
     static constexpr std::int8_t kPairs[16] = {0, 8,  1, 9,  2, 10, 3, 11,
                                                4, 12, 5, 13, 6, 14, 7, 15};
@@ -1171,10 +1197,8 @@ inline void store_block_rows(const I32 (&first)[2], const I32 (&last)[2], std::u
         store(from + 4 * v, first[v]);
         store(until + 4 * v, last[v]);
     }
-    constexpr std::uint64_t kAll = ~std::uint64_t{0};
     std::uint64_t rows[8];
-    for (int k = 0; k < 8; ++k)
-        rows[k] = from[k] > until[k] ? 0 : kAll << from[k] & kAll >> (63 - until[k]);
+    for (int k = 0; k < 8; ++k) rows[k] = kRowBits.from[from[k]] & kRowBits.until[until[k] + 1];
     const I16 pairs = broadcast_lane(kPairs);
     I16 two[4];
     for (int k = 0; k < 4; ++k) two[k] = shuffle_bytes(broadcast_lane(rows + 2 * k), pairs);
@@ -1188,6 +1212,30 @@ inline void store_block_rows(const I32 (&first)[2], const I32 (&last)[2], std::u
 #endif
 
 #if !defined(__AVX512BW__)
+/// Bit k of word k.
+struct LaneBits {
+    alignas(64) std::int32_t bit[32];
+};
+constexpr LaneBits make_lane_bits() {
+    LaneBits lanes{};
+    for (int i = 0; i < 32; ++i) lanes.bit[i] = static_cast<std::int32_t>(std::uint32_t{1} << i);
+    return lanes;
+}
+constexpr LaneBits kLaneBits = make_lane_bits();
+
+inline Mask32 lanes_of(std::uint32_t lanes) {
+    return (I32(static_cast<std::int32_t>(lanes)) & load(kLaneBits.bit)) != I32(0);
+}
+struct BlockLanes {
+    explicit BlockLanes(std::uint64_t pixels)
+        : m_half{I32(static_cast<std::int32_t>(pixels)),
+                 I32(static_cast<std::int32_t>(pixels >> 32))} {}
+    Mask32 operator[](int vector) const {
+        const int first = vector * kLanes32;
+        return (m_half[first / 32] & load(kLaneBits.bit + first % 32)) != I32(0);
+    }
+    I32 m_half[2];
+};
 inline Mask32 equal_words(const std::uint64_t* words, std::uint64_t value) {
     std::int32_t equal[kLanes32];
     for (int k = 0; k < kLanes32; ++k) equal[k] = words[k] == value ? 1 : 0;

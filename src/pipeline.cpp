@@ -131,8 +131,9 @@ struct Renderer::State {
     std::vector<ChunkRange> ranges;
     std::size_t next_range = 0;  ///< first one not binned yet
     std::vector<std::unique_ptr<Chunk>> chunks;
-    std::size_t chunk_count = 0;  ///< of this round
-    bool did_not_fit = false;     ///< the chunks of the last frame
+    std::size_t chunk_count = 0;        ///< of this round
+    std::vector<TileRect> chunk_tiles;  ///< of each, close together: every tile asks all of them
+    bool did_not_fit = false;           ///< the chunks of the last frame
     std::vector<std::unique_ptr<Worker>> workers;
     TileOrder tile_order;
     AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
@@ -328,8 +329,10 @@ void Renderer::State::bin(FrameStats& stats, TileWatch& watch) {
     watch.require_wanted();
     next_range = first + chunk_count;
     std::size_t bytes = 0;
+    chunk_tiles.clear();
     for (std::size_t i = 0; i < chunk_count; ++i) {
         const BinCounts& counts = chunks[i]->counts();
+        chunk_tiles.push_back(chunks[i]->tiles());
         bytes += chunks[i]->bytes();
         stats.triangles += counts.submitted;
         stats.nonfinite_triangles += counts.nonfinite;
@@ -417,6 +420,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     std::vector<TileList>& lists = worker.lists;
     lists.clear();
     for (std::size_t i = 0; i < chunk_count; ++i) {
+        if (!chunk_tiles[i].has(x, y)) continue;
         const std::span<const TileEntry> entries = chunks[i]->tile(x, y);
         if (!entries.empty()) lists.push_back({chunks[i].get(), entries});
     }

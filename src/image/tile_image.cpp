@@ -87,12 +87,45 @@ void write_greys(const float* depths, std::byte* pixels, Channel one, Code&& cod
     }
 }
 
+/// A tile that lies in the frame with all of its rows; can_stream() has been asked.
+template <std::size_t PixelSize>
+void stream_tile(const std::byte* pixels, std::byte* to, std::ptrdiff_t stride) {
+    constexpr std::size_t kRow = kBlockSize * PixelSize, kBlock = kBlockPixels * PixelSize;
+    constexpr std::size_t kBlocks = kTileSize / kBlockSize;
+    for (std::size_t y = 0; y < kTileSize; ++y) {
+        const std::byte* const from =
+            pixels + y / kBlockSize * kBlocks * kBlock + y % kBlockSize * kRow;
+        for (std::size_t x = 0; x < kBlocks; ++x)
+            stream_aligned<kRow>(to + x * kRow, from + x * kBlock);
+        to += stride;
+    }
+}
+void stream_tile(const std::byte* pixels, std::size_t pixel_size, std::byte* to,
+                 std::ptrdiff_t stride) {
+    switch (pixel_size) {
+        case 4:
+            return stream_tile<4>(pixels, to, stride);
+        case 8:
+            return stream_tile<8>(pixels, to, stride);
+        default:
+            return stream_tile<16>(pixels, to, stride);
+    }
+}
+
 void resolve_pixels(const std::byte* pixels, Framebuffer& frame, std::int32_t left,
                     std::int32_t top) {
-    for_each_row(frame, left, top,
-                 [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
-                     stream_copy(frame.row(y) + in_row, pixels + in_tile, n);
-                 });
+    const bool whole = left + kTileSize <= frame.width() && top + kTileSize <= frame.height();
+    const std::size_t size = pixel_size(frame.format());
+    std::byte* const to = frame.row(top) + static_cast<std::size_t>(left) * size;
+    const std::ptrdiff_t stride = whole ? frame.row(top + 1) - frame.row(top) : 0;
+    if (whole && can_stream(to, pixels, static_cast<std::size_t>(stride))) {
+        stream_tile(pixels, size, to, stride);
+    } else {
+        for_each_row(frame, left, top,
+                     [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
+                         stream_copy(frame.row(y) + in_row, pixels + in_tile, n);
+                     });
+    }
     stream_fence();
 }
 

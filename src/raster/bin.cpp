@@ -50,19 +50,14 @@ std::size_t Chunk::bytes() const {
            m_first.size() * sizeof(std::uint32_t);
 }
 
-std::span<const TileEntry> Chunk::tile(std::int32_t x, std::int32_t y) const {
-    const std::int32_t column = x - m_x0, row = y - m_y0;
-    if (column < 0 || row < 0 || column >= m_width || row >= m_height) return {};
-    const auto at = static_cast<std::size_t>(row * m_width + column);
-    return std::span(m_entries).subspan(m_first[at], m_first[at + 1] - m_first[at]);
-}
-
 void Chunk::add_lengths(std::uint64_t number, std::span<std::uint32_t> lengths,
                         std::span<std::uint64_t> sums, std::size_t columns) const {
     std::size_t entry = 0;
-    for (std::int32_t y = m_y0; y < m_y0 + m_height; ++y) {
-        const auto row = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(m_x0);
-        for (std::size_t tile = row; tile < row + static_cast<std::size_t>(m_width); ++tile) {
+    for (std::int32_t y = m_tiles.y0; y <= m_tiles.y1; ++y) {
+        const auto row =
+            static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(m_tiles.x0);
+        const auto width = static_cast<std::size_t>(this->columns());
+        for (std::size_t tile = row; tile < row + width; ++tile) {
             const std::uint32_t length = m_first[entry + 1] - m_first[entry];
             lengths[tile] += length;
             sums[tile] += number * length;
@@ -160,12 +155,14 @@ void Chunk::add_clipped(const ChunkSource& source, std::size_t number, SetupCtx 
 
 /// Counting sort over the rectangle of tiles that the chunk may touch; stable, so order is kept.
 void Chunk::sort_into_tiles() {
-    m_x0 = m_bounds.x0 / kTileSize;
-    m_y0 = m_bounds.y0 / kTileSize;
-    m_width = m_count == 0 ? 0 : m_bounds.x1 / kTileSize - m_x0 + 1;
-    m_height = m_count == 0 ? 0 : m_bounds.y1 / kTileSize - m_y0 + 1;
+    m_tiles = {0, 0, -1, -1};
+    if (m_count != 0) {
+        m_tiles = {m_bounds.x0 / kTileSize, m_bounds.y0 / kTileSize, m_bounds.x1 / kTileSize,
+                   m_bounds.y1 / kTileSize};
+    }
+    const auto rows = static_cast<std::size_t>(m_tiles.y1 - m_tiles.y0 + 1);
     // m_first[t + 1] first counts tile t, then runs through its entries, and ends as its end.
-    m_first.assign(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height) + 2, 0);
+    m_first.assign(static_cast<std::size_t>(columns()) * rows + 2, 0);
     for (std::uint32_t i = 0; i < m_count; ++i) {
         const SetupPlace& place = m_places[i];
         if (place.tiles == 0) {
@@ -192,16 +189,16 @@ void Chunk::sort_into_tiles() {
     }
 }
 
-std::size_t Chunk::tile_number(std::int32_t x, std::int32_t y) const {
-    return static_cast<std::size_t>((y - m_y0) * m_width + x - m_x0);
-}
-
 /// A triangle whose box lies in several tiles, in those that it touches.
 void Chunk::add_parts(std::uint32_t index) {
     const SetupTriangle& triangle = m_triangles[index];
     const PixelRect& box = triangle.box;
     const auto is_large = static_cast<std::uint8_t>(is_small(triangle) ? 0 : 1);
     const TileEntry whole{m_places[index].covered, index, 0, 0, is_large};
+    // Two tiles of a small one are listed as they are: hardly any has none of its pixels.
+    const std::int32_t rows = box.y1 / kTileSize - box.y0 / kTileSize + 1,
+                       columns = box.x1 / kTileSize - box.x0 / kTileSize + 1;
+    const bool sure = is_large == 0 && rows * columns <= 2;
     for (std::int32_t y = box.y0 / kTileSize; y <= box.y1 / kTileSize; ++y) {
         for (std::int32_t x = box.x0 / kTileSize; x <= box.x1 / kTileSize; ++x) {
             TileEntry part = whole;
@@ -209,7 +206,7 @@ void Chunk::add_parts(std::uint32_t index) {
             if (whole.covered != 0) {
                 part = tiny_part(whole, box.x0 - x * kTileSize, box.y0 - y * kTileSize);
                 if (part.covered == 0) continue;
-            } else if (!tile_triangle(triangle, x, y, seen)) {
+            } else if (!sure && !tile_triangle(triangle, x, y, seen)) {
                 continue;
             }
             m_parts.push_back({static_cast<std::uint32_t>(tile_number(x, y)), part});

@@ -30,6 +30,15 @@ struct ChunkSource {
     FrameSize frame;
 };
 
+/// Tiles, inclusive; none where x0 > x1.
+struct TileRect {
+    std::int32_t x0, y0, x1, y1;
+
+    [[nodiscard]] bool has(std::int32_t x, std::int32_t y) const {
+        return x >= x0 && y >= y0 && x <= x1 && y <= y1;
+    }
+};
+
 /// Consecutive triangles of one draw, set up and sorted into the tiles that they touch. Chunks are
 /// filled in parallel and read in order, so no image depends on the schedule. Memory is kept for
 /// the next frame.
@@ -39,8 +48,14 @@ class Chunk {
     void fill(const ChunkSource& source, std::size_t first, std::size_t last,
               const KernelTable& kernels);
 
-    /// Triangles that touch the tile at (x, y), in submission order.
-    [[nodiscard]] std::span<const TileEntry> tile(std::int32_t x, std::int32_t y) const;
+    /// Triangles that touch the tile at (x, y), in submission order, and small ones that may do.
+    [[nodiscard]] std::span<const TileEntry> tile(std::int32_t x, std::int32_t y) const {
+        if (!m_tiles.has(x, y)) return {};
+        const std::size_t at = tile_number(x, y);
+        return {m_entries.data() + m_first[at], m_first[at + 1] - m_first[at]};
+    }
+    /// Around the tiles that have triangles.
+    [[nodiscard]] const TileRect& tiles() const { return m_tiles; }
     [[nodiscard]] std::span<const SetupTriangle> triangles() const {
         return {m_triangles.data(), m_count};
     }
@@ -58,7 +73,10 @@ class Chunk {
                      const KernelTable& kernels);
     void sort_into_tiles();
     void add_parts(std::uint32_t index);
-    [[nodiscard]] std::size_t tile_number(std::int32_t x, std::int32_t y) const;
+    [[nodiscard]] std::int32_t columns() const { return m_tiles.x1 - m_tiles.x0 + 1; }
+    [[nodiscard]] std::size_t tile_number(std::int32_t x, std::int32_t y) const {
+        return static_cast<std::size_t>((y - m_tiles.y0) * columns() + x - m_tiles.x0);
+    }
 
     struct PlacedEntry {
         std::uint32_t tile;
@@ -72,7 +90,7 @@ class Chunk {
     std::vector<PlacedEntry> m_parts;    ///< of triangles in several tiles, in order
     std::vector<std::uint32_t> m_first;  ///< per tile of the rectangle, one more at the end
     std::vector<TileEntry> m_entries;    ///< tile by tile
-    std::int32_t m_x0 = 0, m_y0 = 0, m_width = 0, m_height = 0;  ///< rectangle of tiles
+    TileRect m_tiles{0, 0, -1, -1};
     BinCounts m_counts;
 };
 

@@ -122,7 +122,8 @@ void PacketShader::add(const SetupTriangle& triangle, const PixelMask& pixels,
     } else {
         list_pixels(pixels, m_list);
     }
-    append(triangle, {m_list.shaded, m_list.stored, m_list.count}, kernels);
+    const std::uint16_t* const stored = m_draw.shading->quads ? m_list.stored : m_list.shaded;
+    append(triangle, {m_list.shaded, stored, m_list.count}, kernels);
     if (m_packet.count > 0) hold(pixels);
 }
 
@@ -205,10 +206,12 @@ void PacketShader::append(const SetupTriangle& triangle, Fragments fragments,
         const int count = std::min(fragments.count, kPacketSize - first);
         m_copied = fragments.stored != nullptr;
         if (m_copied) {
-            m_packet.pixels = m_pixels.data();
-            std::copy_n(fragments.shaded, count, m_pixels.data() + first);
             if (stores_apart()) std::copy_n(fragments.stored, count, m_stored.data() + first);
             fragments.stored += count;
+        }
+        if (m_copied && count < kPacketSize) {  // and so may wait for others
+            m_packet.pixels = m_pixels.data();
+            std::copy_n(fragments.shaded, count, m_pixels.data() + first);
         } else if (first == 0) {
             m_packet.pixels = fragments.shaded;
         }

@@ -30,7 +30,6 @@ void list_pixels(const PixelMask& mask, PixelList& out) {
         }
     });
     out.count = static_cast<int>(to - out.shaded);
-    for (int i = 0; i < out.count; ++i) out.stored[i] = out.shaded[i];
 }
 
 void list_quads(const PixelMask& mask, PixelList& out) {

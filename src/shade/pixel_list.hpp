@@ -6,7 +6,7 @@
 
 namespace burnish {
 
-/// Fragments of one triangle: where they are shaded, and where they are stored.
+/// Fragments of one triangle: where they are shaded, and of quads where they are stored.
 struct PixelList {
     static constexpr int kSlack = 16;  ///< kernels read past the last, and so do copies
 
@@ -15,7 +15,7 @@ struct PixelList {
     int count;
 };
 
-/// The pixels of a mask, block after block, rising in each.
+/// The pixels of a mask, block after block, rising in each; stored where they are shaded.
 void list_pixels(const PixelMask& mask, PixelList& out);
 
 /// The same as whole 2x2 quads at even coordinates: upper left, upper right, lower left, lower
