@@ -209,7 +209,8 @@ void prefetch_quartet(Packet& packet, const PrefetchQuartetCtx& ctx) noexcept {
 }
 
 /// From a wide register to texel and weight along an axis of a table. Dividing by a power of two is
-/// multiplying by its inverse, bit for bit.
+/// multiplying by its inverse, bit for bit; and where numbers are not immense, such factors may
+/// come first: then scale and offset lead to 1/256 texel at once.
 struct TableAxis {
     TableAxis(const Packet& packet, const LookUpTableCtx::Axis& axis)
         : codes(packet.planes + axis.plane * kPacketSize),
@@ -219,24 +220,33 @@ struct TableAxis {
           divisor(axis.divisor),
           inverse(1.0F / axis.divisor),
           steps(static_cast<float>(256 * axis.size)),
+          code_scale(axis.scale * 0x1p-6F),  // 256 / 2^14
+          step_offset(axis.offset * 256.0F),
           has_inverse((axis.size & (axis.size - 1)) == 0 &&
-                      axis.divisor == static_cast<float>(axis.size)) {}
-    [[nodiscard]] F32 number(int i) const {
-        const I32 v = load_widened(reinterpret_cast<const std::uint16_t*>(codes) + i);
-        return to_float((v << 16) >> 16) * F32(0x1p-14F);
+                      axis.divisor == static_cast<float>(axis.size)),
+          in_steps(has_inverse && is_usual(axis.scale) && is_usual(axis.offset)) {}
+    /// 0, or neither near overflow nor near denormal numbers.
+    static bool is_usual(float x) {
+        const float size = x < 0.0F ? -x : x;
+        return x == 0.0F || (size > 0x1p-40F && size < 0x1p40F);
     }
+    [[nodiscard]] F32 code(int i) const { return to_float(load_widened(codes + i)); }
+    [[nodiscard]] F32 number(int i) const { return code(i) * F32(0x1p-14F); }
     [[nodiscard]] F32 coordinate(F32 number) const {
         const F32 position = number * scale + offset;
         return has_inverse ? position * inverse : divide(position, divisor);
     }
     AxisAddress operator()(int i) const {
-        return axis_address<AddressMode::clamp_to_edge, true>(coordinate(number(i)), size,
-                                                              F32(1.0F), steps);
+        constexpr AddressMode kClamp = AddressMode::clamp_to_edge;
+        if (!in_steps)
+            return axis_address<kClamp, true>(coordinate(number(i)), size, F32(1.0F), steps);
+        return axis_address<kClamp, true>(code(i) * code_scale + step_offset, size, steps,
+                                          F32(1.0F));
     }
     const std::int16_t* codes;
     std::int32_t size;
-    F32 scale, offset, divisor, inverse, steps;
-    bool has_inverse;
+    F32 scale, offset, divisor, inverse, steps, code_scale, step_offset;
+    bool has_inverse, in_steps;
 };
 
 /// Columns first: sums of products are the same either way.
@@ -262,28 +272,36 @@ void look_up_table(Packet& packet, const LookUpTableCtx& ctx) {
         store(offset + i, offsets);
         store(across + i, s.weight);
     }
-    for (int i = 0; i < n; i += kLanes32) {
+    const auto code = [&](int i) {
         const I16 rows = ::xsimd::bitwise_cast<I16>(TwoAxes ? load(down + i) : I32(256));
         const I32 first = mul_add_pairs(load_pairs<4>(texels, offset + i), zip_lo32(rows, rows));
         const I32 second =
             mul_add_pairs(load_pairs<4>(texels, offset + i + 2), zip_hi32(rows, rows));
         const I32 left = even_dwords(first, second), right = odd_dwords(first, second);
         const I32 x = ((left << 8) + (right - left) * load(across + i) + I32(32768)) >> 16;
-        const I32 code = (x + I32(32768 + 2)) >> 2;
-        for (int k = 0; k < outs; ++k) store_narrowed(out[k] + i, code);
+        return (x + I32(32768 + 2)) >> 2;
+    };
+    for (int i = 0; i < n; i += kLanes) {
+        const I32 first = code(i), second = code(i + kLanes32);
+        for (int k = 0; k < outs; ++k) store_narrowed(out[k] + i, first, second);
     }
 }
 
-/// Scalar: vectors have nothing that is quicker than two loads and a store.
+/// Vectors have nothing that is quicker than loads; four codes are stored at once.
 void look_up_codes(Packet& packet, const LookUpTableCtx& ctx) {
     const auto* const from =
         reinterpret_cast<const std::uint16_t*>(packet.planes + ctx.s.plane * kPacketSize);
-    const std::int16_t* const codes = ctx.codes;
+    const auto* const codes = reinterpret_cast<const std::uint16_t*>(ctx.codes);
     const int n = group_count(packet);
     for (const int plane : ctx.out) {
         if (plane < 0) continue;
         std::int16_t* const out = packet.planes + plane * kPacketSize;
-        for (int i = 0; i < n; ++i) out[i] = codes[from[i]];
+#pragma GCC unroll 2
+        for (int i = 0; i < n; i += 4) {
+            const auto code = [&](int k) { return std::uint64_t{codes[from[i + k]]} << (16 * k); };
+            const std::uint64_t four = (code(0) | code(1)) | (code(2) | code(3));
+            __builtin_memcpy(out + i, &four, sizeof four);
+        }
     }
 }
 
