@@ -854,8 +854,9 @@ PortionCtx portion(ProductKind ab, ProductKind cd, ThirdKind third) {
 }
 
 void add_portions(const std::string& name, PacketStage<PortionCtx> stage,
-                  const PacketMemory& packet) {
-    const auto add_portion = [&](const char* variant, const PortionCtx& ctx, Written written) {
+                  const PacketMemory& packet, bool bounded = false) {
+    const auto add_portion = [&](const char* variant, PortionCtx ctx, Written written) {
+        ctx.bounded = bounded ? 1 : 0;
         written.trash_plane = kTrash;
         add_packet_stage(name + "/" + variant, stage, packet, ctx, written);
     };
@@ -1053,6 +1054,7 @@ void add_models() {
     fill_planes(wide, random, 13, 0, 16384);
     add_portions("portion_nine_bit", &KernelTable::portion_nine_bit, nine_bit);
     add_portions("portion_wide", &KernelTable::portion_wide, wide);
+    add_portions("portion_wide/bounded", &KernelTable::portion_wide, wide, true);
     add_final("final_nine_bit", &KernelTable::final_nine_bit, nine_bit);
     add_final("final_wide", &KernelTable::final_wide, wide);
     add_store("store_nine_bit", &KernelTable::store_nine_bit, nine_bit);

@@ -214,14 +214,16 @@ struct WideBounded {
             : doublings(ctx.scale == OutputScale::two    ? 1
                         : ctx.scale == OutputScale::four ? 2
                                                          : 0),
+              halves(ctx.scale == OutputScale::half),
               to_one(ctx.wide == 0) {}
         I16 operator()(Value x) const {
+            if (halves) x = (x >> 1) + (x & I16(1));  // of 32768, too, which is 32767 here
             if (doublings > 0) x = ::xsimd::sadd(x, x);
             if (doublings > 1) x = ::xsimd::sadd(x, x);
             return to_one ? min(max(x, I16(-kOne)), I16(kOne)) : x;
         }
         int doublings;
-        bool to_one;
+        bool halves, to_one;
     };
 };
 
@@ -425,10 +427,11 @@ bool all_mapped(const PortionCtx& ctx, std::uint8_t mapping) {
            (ctx.cd == ProductKind::none || (ctx.c.mapping == mapping && ctx.d.mapping == mapping));
 }
 
-/// Bounded products whose sums, scales and biases WideBounded knows.
+/// Bounded products whose sums WideBounded knows; half of a dot may be above 1.
 template <class Model, ProductKind Ab, ProductKind Cd>
 bool bounded_portion(Packet& packet, const PortionCtx& ctx) {
     constexpr bool kHasDot = Ab == ProductKind::dot || Cd == ProductKind::dot;
+    if (kHasDot && ctx.scale == OutputScale::half && ctx.wide != 0) return false;
     if (ctx.third == ThirdKind::none) {
         portion<Model, Ab, Cd, ThirdKind::none>(packet, ctx);
         return true;
@@ -467,8 +470,6 @@ bool bounded_portion(Packet& packet, const PortionCtx& ctx) {
 }
 
 void portion_wide(Packet& packet, const PortionCtx& ctx) noexcept {
-    const bool is_short =
-        ctx.bounded != 0 && ctx.bias_minus_half == 0 && ctx.scale != OutputScale::half;
-    if (is_short && bounded_portion(packet, ctx)) return;
+    if (ctx.bounded != 0 && ctx.bias_minus_half == 0 && bounded_portion(packet, ctx)) return;
     portion<Wide>(packet, ctx);
 }

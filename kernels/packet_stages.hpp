@@ -116,13 +116,15 @@ struct FetchWordsCtx {
 };
 
 /// Four textures of such texels between each other, 32 bytes from left to right: texture k's texel
-/// begins 8 k bytes on and goes to four planes from plane[k] on, or nowhere where that is -1.
+/// begins 8 k bytes on and goes to four planes from plane[k] on, or nowhere where that is -1;
+/// planes of channels that `channels` leaves out stay as they are.
 struct FetchQuartetCtx {
     static constexpr int kTextures = 4;
     static constexpr int kTexelBytes = 32, kNextTexture = 8;
     const std::uint8_t* texels;
     int plane[kTextures];
-    std::int32_t pitch;  ///< bytes
+    std::int32_t pitch;                                   ///< bytes
+    std::uint8_t channels[kTextures] = {15, 15, 15, 15};  ///< bit c: channel c
 };
 
 /// Has texels of a quartet brought closer that a packet's addresses ask for, while other stages

@@ -1051,6 +1051,7 @@ void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
         const Int wx = packet.weight_x[i], wy = packet.weight_y[i];
         for (int k = 0; k < FetchQuartetCtx::kTextures; ++k) {
             for (int c = 0; c < 4 && ctx.plane[k] >= 0; ++c) {
+                if ((ctx.channels[k] >> c & 1) == 0) continue;
                 const auto row = [&](std::ptrdiff_t left) {
                     const std::ptrdiff_t channel = left + FetchQuartetCtx::kNextTexture * k + 2 * c;
                     return (256 - wx) * word_at(ctx.texels, channel) +

@@ -246,6 +246,10 @@ struct LaneOrder {
 inline I32 load_widened(const std::uint16_t* p) {
     return _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
 }
+/// Signed ones.
+inline I32 load_widened(const std::int16_t* p) {
+    return _mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
+}
 inline void store_narrowed(std::int16_t* p, I32 v) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvtepi32_epi16(v));
 }
@@ -537,6 +541,9 @@ struct LaneOrder {
 inline I32 load_widened(const std::uint16_t* p) {
     return _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
 }
+inline I32 load_widened(const std::int16_t* p) {
+    return _mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
 inline void store_narrowed(std::int16_t* p, I32 v) {
     const __m256i pairs = _mm256_permute4x64_epi64(_mm256_packs_epi32(v, v), 0x08);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(pairs));
@@ -742,6 +749,9 @@ struct LaneOrder {
 inline I32 load_widened(const std::uint16_t* p) {
     return _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
 }
+inline I32 load_widened(const std::int16_t* p) {
+    return _mm_cvtepi16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+}
 inline void store_narrowed(std::int16_t* p, I32 v) {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(v, v));
 }
@@ -920,6 +930,9 @@ struct LaneOrder {
 };
 inline I32 load_widened(const std::uint16_t* p) {
     return vreinterpretq_s32_u32(vmovl_u16(vld1_u16(p)));
+}
+inline I32 load_widened(const std::int16_t* p) {
+    return vmovl_s16(vld1_s16(p));
 }
 inline void store_narrowed(std::int16_t* p, I32 v) {
     vst1_s16(p, vmovn_s32(v));

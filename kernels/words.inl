@@ -121,7 +121,8 @@ template <int... K, class F>
 /// A row of both texels is at most four vectors, and one lane of them is one texture; so eight
 /// fragments are transposed lane by lane. T and B are rows of 24 bits, their weighted sum may wrap
 /// by what the sign of 2^31 takes back.
-void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
+template <int RowVectors>
+void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) {
     using Vectors = std::make_integer_sequence<int, kTexelRowVectors>;
     constexpr int kAtOnce = 8;  // fragments
     const int n = group_count(packet);
@@ -137,63 +138,98 @@ void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
     }
     const std::uint8_t *const top = ctx.texels, *const bottom = ctx.texels + ctx.pitch;
     const std::int32_t* const texel = packet.texel;
-    std::int16_t unwanted[3 * kPacketSize + kAtOnce];
     std::int16_t* out[FetchQuartetCtx::kTextures];
-    std::ptrdiff_t step[FetchQuartetCtx::kTextures];
+    unsigned wanted = 0;  // bit 4 k + c
     for (int k = 0; k < FetchQuartetCtx::kTextures; ++k) {
-        const bool is_wanted = ctx.plane[k] >= 0;
-        out[k] = is_wanted ? packet.planes + ctx.plane[k] * kPacketSize : unwanted;
-        step[k] = is_wanted ? 1 : 0;
+        out[k] = packet.planes + ctx.plane[k] * kPacketSize;
+        if (ctx.plane[k] >= 0) wanted |= unsigned{ctx.channels[k]} << (4 * k);
     }
-    for (int i = 0; i < n; i += kAtOnce) {
-        // Of fragment f and the one behind it words 0, 0, 1, 1, 2, 2, 3, 3 of every lane.
-        struct Codes {
-            I16 v[kTexelRowVectors];
-        };
-        const auto filtered = [&](int f, I32(&x)[kTexelRowVectors]) __attribute__((always_inline)) {
-            I16 t[kTexelRowVectors], b[kTexelRowVectors];
-            load_texel_row(top + texel[f], t);
-            load_texel_row(bottom + texel[f], b);
-            const I16 sides = ::xsimd::bitwise_cast<I16>(I32(across[f]));
-            const I32 above(upper[f]), below(lower[f]);
-            const I32 half_and_sign(static_cast<std::int32_t>(0x80008000));
-            in_turn(
-                Vectors(), [&](int j) __attribute__((always_inline)) {
-                    x[j] = mul_add_pairs(t[j], sides) * above + mul_add_pairs(b[j], sides) * below +
-                           half_and_sign;
-                });
-        };
-        const auto pair = [&](int f) __attribute__((always_inline)) {
-            I32 first[kTexelRowVectors], second[kTexelRowVectors];
-            filtered(f, first);
-            filtered(f + 1, second);
-            Codes codes;
-            in_turn(
-                Vectors(), [&](int j) __attribute__((always_inline)) {
-                    const I16 v = upper_words(first[j], second[j]);  // x + 32768
-                    codes.v[j] = average(shift_right_logical(v, 1), I16(0));
-                });
-            return codes;
-        };
-        const Codes ab = pair(i), cd = pair(i + 2), ef = pair(i + 4), gh = pair(i + 6);
+    // Of fragment f and the one behind it words 0, 0, 1, 1, 2, 2, 3, 3 of every lane.
+    struct Codes {
+        I16 v[kTexelRowVectors];
+    };
+    const auto filtered = [&](int f, I32(&x)[kTexelRowVectors]) __attribute__((always_inline)) {
+        I16 t[kTexelRowVectors], b[kTexelRowVectors];
+        load_texel_row(top + texel[f], t);
+        load_texel_row(bottom + texel[f], b);
+        const I16 sides = ::xsimd::bitwise_cast<I16>(I32(across[f]));
+        const I32 above(upper[f]), below(lower[f]);
+        const I32 half_and_sign(static_cast<std::int32_t>(0x80008000));
+        in_turn(
+            Vectors(), [&](int j) __attribute__((always_inline)) {
+                x[j] = mul_add_pairs(t[j], sides) * above + mul_add_pairs(b[j], sides) * below +
+                       half_and_sign;
+            });
+    };
+    const auto pair = [&](int f) __attribute__((always_inline)) {
+        I32 first[kTexelRowVectors], second[kTexelRowVectors];
+        filtered(f, first);
+        filtered(f + 1, second);
+        Codes codes;
+        in_turn(
+            Vectors(), [&](int j) __attribute__((always_inline)) {
+                const I16 v = upper_words(first[j], second[j]);  // x + 32768
+                codes.v[j] = average(shift_right_logical(v, 1), I16(0));
+            });
+        return codes;
+    };
+    // put(j, c, v): channel c of fragments f .. f + 7, lane p of texture kTexelRowVectors p + j.
+    const auto eight = [&](int f, auto put) __attribute__((always_inline)) {
+        const Codes ab = pair(f), cd = pair(f + 2), ef = pair(f + 4), gh = pair(f + 6);
         in_turn(
             Vectors(), [&](int j) __attribute__((always_inline)) {
                 const I16 ad01 = zip_lo32(ab.v[j], cd.v[j]), ad23 = zip_hi32(ab.v[j], cd.v[j]);
                 const I16 eh01 = zip_lo32(ef.v[j], gh.v[j]), eh23 = zip_hi32(ef.v[j], gh.v[j]);
-                const auto put = [&](int c, I16 v) __attribute__((always_inline)) {
-                    std::int16_t* to[kParts];
-                    for (int p = 0; p < kParts; ++p) {
-                        const int k = kTexelRowVectors * p + j;
-                        to[p] = out[k] + c * kPacketSize + step[k] * i;
-                    }
-                    store_lanes(v, to);
-                };
-                put(0, zip_lo64(ad01, eh01));
-                put(1, zip_hi64(ad01, eh01));
-                put(2, zip_lo64(ad23, eh23));
-                put(3, zip_hi64(ad23, eh23));
+                put(j, 0, zip_lo64(ad01, eh01));
+                put(j, 1, zip_hi64(ad01, eh01));
+                put(j, 2, zip_lo64(ad23, eh23));
+                put(j, 3, zip_hi64(ad23, eh23));
             });
+    };
+    if constexpr (RowVectors == 1) {  // with registers for whole vectors of every plane
+        using Four = std::make_integer_sequence<int, 4>;
+        for (int i = 0; i < n; i += kLanes) {
+            I16 rows[4][4];
+            in_turn(
+                Four(), [&](int g) __attribute__((always_inline)) {
+                    eight(
+                        i + kAtOnce * g, [&](int /*j*/, int c, I16 v)
+                                             __attribute__((always_inline)) { rows[c][g] = v; });
+                });
+            in_turn(
+                Four(), [&](int c) __attribute__((always_inline)) {
+                    if ((wanted >> c & 0x1111U) == 0) return;
+                    const LaneRows lanes(rows[c]);
+                    const auto put = [&](auto k) __attribute__((always_inline)) {
+                        if ((wanted >> (4 * k + c) & 1U) != 0)
+                            lanes.template store<decltype(k)::value>(out[k] + c * kPacketSize + i);
+                    };
+                    put(std::integral_constant<int, 0>());
+                    put(std::integral_constant<int, 1>());
+                    put(std::integral_constant<int, 2>());
+                    put(std::integral_constant<int, 3>());
+                });
+        }
+    } else {
+        for (int i = 0; i < n; i += kAtOnce) {
+            eight(
+                i, [&](int j, int c, I16 v) __attribute__((always_inline)) {
+                    const auto put = [&](auto p) __attribute__((always_inline)) {
+                        if constexpr (decltype(p)::value < kParts) {
+                            const int k = kTexelRowVectors * p + j;
+                            if ((wanted >> (4 * k + c) & 1U) != 0)
+                                store_lane<decltype(p)::value>(out[k] + c * kPacketSize + i, v);
+                        }
+                    };
+                    put(std::integral_constant<int, 0>());
+                    put(std::integral_constant<int, 1>());
+                });
+        }
     }
+}
+
+void fetch_quartet(Packet& packet, const FetchQuartetCtx& ctx) noexcept {
+    fetch_quartet<kTexelRowVectors>(packet, ctx);
 }
 
 /// Both rows of one fragment in two: texels about as large as pixels are half a line.
@@ -209,7 +245,8 @@ void prefetch_quartet(Packet& packet, const PrefetchQuartetCtx& ctx) noexcept {
 }
 
 /// From a wide register to texel and weight along an axis of a table. Dividing by a power of two is
-/// multiplying by its inverse, bit for bit.
+/// multiplying by its inverse, bit for bit; and where numbers are not immense, such factors may
+/// come first: then scale and offset lead to 1/256 texel at once.
 struct TableAxis {
     TableAxis(const Packet& packet, const LookUpTableCtx::Axis& axis)
         : codes(packet.planes + axis.plane * kPacketSize),
@@ -219,24 +256,33 @@ struct TableAxis {
           divisor(axis.divisor),
           inverse(1.0F / axis.divisor),
           steps(static_cast<float>(256 * axis.size)),
+          code_scale(axis.scale * 0x1p-6F),  // 256 / 2^14
+          step_offset(axis.offset * 256.0F),
           has_inverse((axis.size & (axis.size - 1)) == 0 &&
-                      axis.divisor == static_cast<float>(axis.size)) {}
-    [[nodiscard]] F32 number(int i) const {
-        const I32 v = load_widened(reinterpret_cast<const std::uint16_t*>(codes) + i);
-        return to_float((v << 16) >> 16) * F32(0x1p-14F);
+                      axis.divisor == static_cast<float>(axis.size)),
+          in_steps(has_inverse && is_usual(axis.scale) && is_usual(axis.offset)) {}
+    /// 0, or neither near overflow nor near denormal numbers.
+    static bool is_usual(float x) {
+        const float size = x < 0.0F ? -x : x;
+        return x == 0.0F || (size > 0x1p-40F && size < 0x1p40F);
     }
+    [[nodiscard]] F32 code(int i) const { return to_float(load_widened(codes + i)); }
+    [[nodiscard]] F32 number(int i) const { return code(i) * F32(0x1p-14F); }
     [[nodiscard]] F32 coordinate(F32 number) const {
         const F32 position = number * scale + offset;
         return has_inverse ? position * inverse : divide(position, divisor);
     }
     AxisAddress operator()(int i) const {
-        return axis_address<AddressMode::clamp_to_edge, true>(coordinate(number(i)), size,
-                                                              F32(1.0F), steps);
+        constexpr AddressMode kClamp = AddressMode::clamp_to_edge;
+        if (!in_steps)
+            return axis_address<kClamp, true>(coordinate(number(i)), size, F32(1.0F), steps);
+        return axis_address<kClamp, true>(code(i) * code_scale + step_offset, size, steps,
+                                          F32(1.0F));
     }
     const std::int16_t* codes;
     std::int32_t size;
-    F32 scale, offset, divisor, inverse, steps;
-    bool has_inverse;
+    F32 scale, offset, divisor, inverse, steps, code_scale, step_offset;
+    bool has_inverse, in_steps;
 };
 
 /// Columns first: sums of products are the same either way.
@@ -262,28 +308,36 @@ void look_up_table(Packet& packet, const LookUpTableCtx& ctx) {
         store(offset + i, offsets);
         store(across + i, s.weight);
     }
-    for (int i = 0; i < n; i += kLanes32) {
+    const auto code = [&](int i) {
         const I16 rows = ::xsimd::bitwise_cast<I16>(TwoAxes ? load(down + i) : I32(256));
         const I32 first = mul_add_pairs(load_pairs<4>(texels, offset + i), zip_lo32(rows, rows));
         const I32 second =
             mul_add_pairs(load_pairs<4>(texels, offset + i + 2), zip_hi32(rows, rows));
         const I32 left = even_dwords(first, second), right = odd_dwords(first, second);
         const I32 x = ((left << 8) + (right - left) * load(across + i) + I32(32768)) >> 16;
-        const I32 code = (x + I32(32768 + 2)) >> 2;
-        for (int k = 0; k < outs; ++k) store_narrowed(out[k] + i, code);
+        return (x + I32(32768 + 2)) >> 2;
+    };
+    for (int i = 0; i < n; i += kLanes) {
+        const I32 first = code(i), second = code(i + kLanes32);
+        for (int k = 0; k < outs; ++k) store_narrowed(out[k] + i, first, second);
     }
 }
 
-/// Scalar: vectors have nothing that is quicker than two loads and a store.
+/// Vectors have nothing that is quicker than loads; four codes are stored at once.
 void look_up_codes(Packet& packet, const LookUpTableCtx& ctx) {
     const auto* const from =
         reinterpret_cast<const std::uint16_t*>(packet.planes + ctx.s.plane * kPacketSize);
-    const std::int16_t* const codes = ctx.codes;
+    const auto* const codes = reinterpret_cast<const std::uint16_t*>(ctx.codes);
     const int n = group_count(packet);
     for (const int plane : ctx.out) {
         if (plane < 0) continue;
         std::int16_t* const out = packet.planes + plane * kPacketSize;
-        for (int i = 0; i < n; ++i) out[i] = codes[from[i]];
+#pragma GCC unroll 2
+        for (int i = 0; i < n; i += 4) {
+            const auto code = [&](int k) { return std::uint64_t{codes[from[i + k]]} << (16 * k); };
+            const std::uint64_t four = (code(0) | code(1)) | (code(2) | code(3));
+            __builtin_memcpy(out + i, &four, sizeof four);
+        }
     }
 }
 

@@ -262,9 +262,13 @@ TEST_P(KernelTest, TexelsOfFourTexturesOfWords) {
         FetchQuartetCtx ctx{texels.data(), {20, -1, 4, 28}, 2112};
         if (random.chance(2)) ctx.plane[1] = 8;
         if (random.chance(4)) ctx.plane[random.below(4)] = -1;
+        if (random.chance(2))
+            for (std::uint8_t& channels : ctx.channels)
+                channels = static_cast<std::uint8_t>(random.below(16));
         Written written;
-        for (const int plane : ctx.plane)
-            for (int c = 0; c < 4 && plane >= 0; ++c) written.planes.push_back(plane + c);
+        for (std::size_t k = 0; k < 4; ++k)
+            for (int c = 0; c < 4 && ctx.plane[k] >= 0; ++c)
+                if ((ctx.channels[k] >> c & 1) != 0) written.planes.push_back(ctx.plane[k] + c);
         ASSERT_EQ(stage_difference(table(), &KernelTable::fetch_quartet, packet, ctx, written), "")
             << name("fetch_quartet") << ", seed " << seed;
         const PrefetchQuartetCtx prefetch{ctx.texels, ctx.pitch};
