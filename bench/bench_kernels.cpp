@@ -393,18 +393,19 @@ void add_rasterize_depths() {
     }
 }
 
-/// The triangles of a sheet in the tile at the corner of the frame: tiny ones that lie in it, or
-/// small ones that reach into it.
-std::vector<TileEntry> entries_of(const Sheet& sheet, bool tiny) {
+/// The triangles of a sheet in the tile from pixel (corner, corner) on: tiny ones that lie in it,
+/// or small ones that reach into it.
+std::vector<TileEntry> entries_of(const Sheet& sheet, bool tiny, int corner) {
     std::vector<TileEntry> entries;
+    const int end = corner + kTileSize;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sheet.counts.drawn); ++i) {
         const PixelRect& box = sheet.triangles[i].box;
         const std::uint64_t covered = sheet.places[i].covered;
-        const bool inside = box.x1 < kTileSize && box.y1 < kTileSize;
-        const bool reaches = box.x0 < kTileSize && box.y0 < kTileSize;
+        const bool inside = box.x0 >= corner && box.y0 >= corner && box.x1 < end && box.y1 < end;
+        const bool reaches = box.x1 >= corner && box.y1 >= corner && box.x0 < end && box.y0 < end;
         if (tiny ? covered == 0 || !inside : !reaches) continue;
-        entries.push_back({tiny ? covered : 0, i, static_cast<std::uint8_t>(box.x0),
-                           static_cast<std::uint8_t>(box.y0), 0});
+        entries.push_back({tiny ? covered : 0, i, static_cast<std::uint8_t>(box.x0 % kTileSize),
+                           static_cast<std::uint8_t>(box.y0 % kTileSize), 0});
     }
     return entries;
 }
@@ -415,12 +416,13 @@ void add_rasterize_entries(const std::string& name, float size, bool tiny) {
     sheets.push_back(std::make_unique<Sheet>(size));
     Sheet& sheet = *sheets.back();
     table_reference().setup(sheet.context());
-    const std::vector<TileEntry> entries = entries_of(sheet, tiny);
-    const auto draw = [entries, tiny, &sheet](const KernelTable& table, Tile& tile) {
+    const int corner = tiny ? 0 : 4 * kTileSize;  // where the sheet is whole
+    const std::vector<TileEntry> entries = entries_of(sheet, tiny, corner);
+    const auto draw = [entries, tiny, corner, &sheet](const KernelTable& table, Tile& tile) {
         tile.drawn.resize(entries.size());
         (tiny ? table.rasterize_tiny : table.rasterize_small)(
             {entries.data(), static_cast<int>(entries.size()), sheet.triangles.data(),
-             DepthRule{1, 0, 0, 1}, 0, 0, 0, tile.depth.data(), tile.id.data(),
+             DepthRule{1, 0, 0, 1}, corner, corner, 0, tile.depth.data(), tile.id.data(),
              tile.block_far.data(), tile.drawn.data()});
     };
     add(
