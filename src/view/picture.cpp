@@ -114,21 +114,25 @@ int side_of(Fineness fineness) {
 
 }  // namespace
 
-Renderer& PictureMaker::renderer_for(const RendererOptions& options) {
-    if (!m_renderer || options.threads != m_options.threads || options.isa != m_options.isa ||
-        options.accounting != m_options.accounting) {
-        m_options = options;
-        m_options.stop = m_stop;
-        m_renderer = std::make_unique<Renderer>(m_options);
-    }
-    return *m_renderer;
+Renderer& PictureMaker::renderer_for(const Wish& wish, const Machine& machine) {
+    const RendererOptions& options = wish.renderer;
+    if (options.threads != m_options.threads || options.isa != m_options.isa ||
+        options.accounting != m_options.accounting)
+        m_renderers.clear();
+    m_options = options;
+    m_options.stop = m_stop;
+    const bool is_split = wish.panes.size() > 1;
+    if (!is_split) std::erase_if(m_renderers, [](const auto& each) { return !each.first.empty(); });
+    std::unique_ptr<Renderer>& renderer = m_renderers[is_split ? machine.name : ""];
+    if (!renderer) renderer = std::make_unique<Renderer>(m_options);
+    return *renderer;
 }
 
 Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Picture& picture) {
     if (has_bits(wish, scene.machine))
         return lab::render_with_bits(scene, bits_of(wish), wish.renderer.threads, {.stop = m_stop});
     Framebuffer frame(scene.width, scene.height, PixelFormat::rgba32f);
-    picture.stats = renderer_for(wish.renderer).render(scene, frame);
+    picture.stats = renderer_for(wish, scene.machine).render(scene, frame);
     return frame;
 }
 
@@ -137,7 +141,7 @@ const Framebuffer& PictureMaker::truth_of(const Wish& wish, Scene scene) {
     scene.machine = double_precision(scene.machine);
     m_truth_id = 0;  // nobody's, should it be stopped
     m_truth.emplace(scene.width, scene.height, PixelFormat::rgba32f);
-    renderer_for(wish.renderer).render(scene, *m_truth);
+    renderer_for(wish, scene.machine).render(scene, *m_truth);
     m_truth_id = wish.id;
     return *m_truth;
 }
@@ -151,7 +155,7 @@ Framebuffer PictureMaker::draw_frame(const Wish& wish, const Scene& scene, int s
     if (has_bits(wish, scene.machine))
         put_bytes(draw_numbers(wish, scene, picture), frame);
     else
-        picture.stats = m_draw(renderer_for(wish.renderer), scene, side, frame);
+        picture.stats = m_draw(renderer_for(wish, scene.machine), scene, side, frame);
     return frame;
 }
 
@@ -211,7 +215,7 @@ std::vector<MaterialProgram> PictureMaker::programs_of(const Wish& wish, Finenes
     // As its pane has it, which may draw programs in passes.
     for (const Pane& pane : wish.panes)
         if (pane.machine.name == scene.machine.name) scene.machine = pane.machine;
-    return m_programs.of(renderer_for(wish.renderer), scene, fineness == Fineness::full);
+    return m_programs.of(renderer_for(wish, scene.machine), scene, fineness == Fineness::full);
 }
 
 Picture PictureMaker::make(const Wish& wish, Fineness fineness) {

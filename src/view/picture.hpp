@@ -4,6 +4,7 @@
 #include <burnish/trace.hpp>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,12 +97,13 @@ class PictureMaker {
     Framebuffer draw_with_edits(const Wish& wish, Scene& scene, int side, PaneReport& report,
                                 Picture& picture);
     std::vector<MaterialProgram> programs_of(const Wish& wish, Fineness fineness);
-    Renderer& renderer_for(const RendererOptions& options);
+    /// One for each machine of a split picture, which would forget what others compiled.
+    Renderer& renderer_for(const Wish& wish, const Machine& machine);
 
     DrawSamples m_draw;
     Pace m_pace;
     std::function<bool()> m_stop;
-    std::unique_ptr<Renderer> m_renderer;
+    std::map<std::string, std::unique_ptr<Renderer>> m_renderers;  ///< "": of the whole picture
     RendererOptions m_options;
     MaterialPrograms m_programs;
     std::optional<Framebuffer> m_truth;
