@@ -47,7 +47,10 @@ std::unique_ptr<Contender> make_contender(std::string_view name, const PeerScene
                                           int threads) {
     if (name == "burnish") return make_burnish(scene, threads);
     if (name == "llvmpipe") return make_llvmpipe(scene, threads);
-    throw std::runtime_error(fmt::format("contender '{}', expected burnish or llvmpipe", name));
+    if (name == "lavapipe") return make_lavapipe(scene, threads);
+    if (name == "swiftshader") return make_swiftshader(scene);
+    throw std::runtime_error(
+        fmt::format("contender '{}', expected burnish, llvmpipe, lavapipe or swiftshader", name));
 }
 
 }  // namespace burnish::peers

@@ -32,7 +32,12 @@ std::unique_ptr<Contender> make_burnish(const PeerScene& scene, int threads);
 /// Throws std::runtime_error where OpenGL 4.5 is not to be had, or another renderer answers.
 std::unique_ptr<Contender> make_llvmpipe(const PeerScene& scene, int threads);
 
-/// "burnish" or "llvmpipe". Throws std::runtime_error for another name.
+/// Mesa's software renderer for Vulkan. The same, where Vulkan 1.2 is not to be had.
+std::unique_ptr<Contender> make_lavapipe(const PeerScene& scene, int threads);
+/// Google's, which has a thread for every core.
+std::unique_ptr<Contender> make_swiftshader(const PeerScene& scene);
+
+/// "burnish", "llvmpipe", "lavapipe" or "swiftshader". Throws std::runtime_error for another name.
 std::unique_ptr<Contender> make_contender(std::string_view name, const PeerScene& scene,
                                           int threads);
 

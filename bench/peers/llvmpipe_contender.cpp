@@ -7,20 +7,13 @@
 
 #include "bench/peers/contender.hpp"
 #include "bench/peers/gl_context.hpp"
+#include "bench/peers/peer_inputs.hpp"
 #include "bench/peers/peer_textures.hpp"
 #include "bench/peers/shaders.hpp"
-#include "geometry/camera.hpp"
 
 namespace burnish::peers {
 
 namespace {
-
-/// What a vertex of OpenGL looks like: that of the mesh, with v downward as textures have it.
-struct Vertex {
-    glm::vec3 position, normal;
-    glm::vec4 tangent;
-    glm::vec2 uv;
-};
 
 struct GlObject {
     GLuint vertex_array = 0;
@@ -43,21 +36,17 @@ GLuint buffer_of(const std::vector<T>& data) {
 }
 
 GlObject upload(const Mesh& mesh) {
-    std::vector<Vertex> vertices;
-    vertices.reserve(mesh.vertex_count());
-    for (const VertexFrame& v : mesh.frames())
-        vertices.push_back({v.position, v.normal, v.tangent, {v.uv.x, 1.0F - v.uv.y}});
     const std::vector<std::uint32_t> indices(mesh.indices().begin(), mesh.indices().end());
     GlObject object;
     object.index_count = static_cast<GLsizei>(indices.size());
     glCreateVertexArrays(1, &object.vertex_array);
     const GLuint array = object.vertex_array;
-    glVertexArrayVertexBuffer(array, 0, buffer_of(vertices), 0, sizeof(Vertex));
+    glVertexArrayVertexBuffer(array, 0, buffer_of(vertices_of(mesh)), 0, sizeof(PeerVertex));
     glVertexArrayElementBuffer(array, buffer_of(indices));
-    attribute(array, 0, 3, offsetof(Vertex, position));
-    attribute(array, 1, 3, offsetof(Vertex, normal));
-    attribute(array, 2, 4, offsetof(Vertex, tangent));
-    attribute(array, 3, 2, offsetof(Vertex, uv));
+    attribute(array, 0, 3, offsetof(PeerVertex, position));
+    attribute(array, 1, 3, offsetof(PeerVertex, normal));
+    attribute(array, 2, 4, offsetof(PeerVertex, tangent));
+    attribute(array, 3, 2, offsetof(PeerVertex, uv));
     return object;
 }
 
@@ -109,21 +98,6 @@ GLuint linked(const ShaderSources& sources) {
     glGetProgramiv(program, GL_LINK_STATUS, &good);
     if (good != GL_TRUE) throw std::runtime_error("GLSL: program does not link");
     return program;
-}
-
-FrameBlock frame_block(const PeerScene& peer) {
-    const Scene& scene = peer.scene;
-    const View view = make_view(scene.camera, scene.width, scene.height);
-    const Light& light = scene.lights.front();
-    const ShadingNumbers& n = peer.numbers;
-    return {glm::mat4(view.clip_from_world),
-            glm::vec4(glm::vec3(view.eye), 1.0F),
-            glm::vec4(glm::normalize(light.position), 0.0F),
-            glm::vec4(light.intensity),
-            {n.reach, n.exponent_low, n.exponent_high, n.specular_scale},
-            glm::vec4(kLitTint, 1.0F),
-            glm::vec4(kLitBase, 1.0F),
-            glm::vec4(kFlatColor, 1.0F)};
 }
 
 /// Textures as colour and depth of a frame: they lie in memory row by row.

@@ -81,9 +81,11 @@ std::string json(const std::vector<Measurement>& measurements, const Surrounding
     std::string list;
     for (const Measurement& m : measurements) list += (list.empty() ? "" : ",\n  ") + json(m);
     return fmt::format(
-        "{{\"processor\": \"{}\", \"realtime\": {}, \"rounds\": {},\n \"measurements\": [\n  "
+        "{{\"processor\": \"{}\", \"peer\": \"{}\", \"realtime\": {}, \"rounds\": {},\n "
+        "\"measurements\": [\n  "
         "{}\n ]}}\n",
-        surroundings.processor, surroundings.realtime, surroundings.rounds, list);
+        surroundings.processor, surroundings.peer, surroundings.realtime, surroundings.rounds,
+        list);
 }
 
 std::string table_line(const Measurement& m) {
@@ -106,9 +108,10 @@ std::string report(const std::vector<Measurement>& measurements, const Surroundi
     std::string text = fmt::format("{}, {} priority, rounds: {}. {}.\n\n", surroundings.processor,
                                    surroundings.realtime ? "real-time" : "ordinary",
                                    surroundings.rounds, fmt::join(renderers, "; "));
-    text +=
-        "| scene | size | threads | burnish, ms | llvmpipe, ms | ratio | RMSE between | burnish "
-        "to double | llvmpipe to double |\n|---|---|---|---|---|---|---|---|---|\n";
+    text += fmt::format(
+        "| scene | size | threads | burnish, ms | {0}, ms | ratio | RMSE between | burnish "
+        "to double | {0} to double |\n|---|---|---|---|---|---|---|---|---|\n",
+        surroundings.peer);
     for (const Measurement& m : measurements) text += table_line(m);
     return text;
 }

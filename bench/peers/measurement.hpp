@@ -41,6 +41,7 @@ double median(std::vector<double> values);
 /// On what and how it was measured.
 struct Surroundings {
     std::string processor;
+    std::string peer;       ///< its name
     bool realtime = false;  ///< priority
     int rounds = 0;
 };

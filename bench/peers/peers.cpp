@@ -1,6 +1,6 @@
-// Burnish beside Mesa's llvmpipe, scene by scene: the two take turns, every round is a new process
-// of its own. Writes JSON and a table; docs/performance.md says what is compared. Exit code 3 means
-// that pictures differ.
+// Burnish beside another software renderer, scene by scene: the two take turns, every round is a
+// new process of its own. Writes JSON and a table; docs/performance.md says what is compared. Exit
+// code 3 means that pictures differ.
 #include <fmt/format.h>
 #include <stdlib.h>
 
@@ -51,6 +51,7 @@ struct Size {
 };
 
 struct Options {
+    std::string peer = "llvmpipe";
     std::vector<std::string> scenes;
     std::vector<Size> sizes;  ///< empty: those of each scene
     std::vector<std::string> isas{""};
@@ -141,20 +142,21 @@ Framebuffer load_picture(const PeerScene& scene, const fs::path& path) {
 
 /// The two frames that a round leaves.
 struct Pictures {
-    explicit Pictures(const fs::path& folder)
-        : burnish(folder / "burnish.raw"), peer(folder / "llvmpipe.raw") {}
+    Pictures(const fs::path& folder, const std::string& peer_name)
+        : burnish(folder / "burnish.raw"), peer(folder / (peer_name + ".raw")) {}
     fs::path burnish, peer;
 };
 
 /// One process of each.
-void take_turns(Measurement& m, const Runner& runner, const Pictures& pictures) {
+void take_turns(Measurement& m, const std::string& peer, const Runner& runner,
+                const Pictures& pictures) {
     if (m.isa.empty()) {
         unsetenv("BURNISH_ISA");
     } else {
         setenv("BURNISH_ISA", m.isa.c_str(), 1);
     }
     runner.run("burnish", m, pictures.burnish, m.burnish);
-    runner.run("llvmpipe", m, pictures.peer, m.peer);
+    runner.run(peer, m, pictures.peer, m.peer);
     fmt::print(stderr, "{} {} x {} {}, threads {}: {:.2f} and {:.2f} ms\n", m.scene, m.width,
                m.height, m.isa, m.threads, m.burnish.rounds.back(), m.peer.rounds.back());
 }
@@ -169,7 +171,7 @@ std::vector<Measurement> first_round(const Options& options, const Runner& runne
             for (const std::string& isa : options.isas) {
                 for (const int threads : options.threads) {
                     Measurement m{name, size.width, size.height, threads, isa, exposed.intensity};
-                    take_turns(m, runner, pictures);
+                    take_turns(m, options.peer, runner, pictures);
                     m.agreement = compare(load_picture(exposed.scene, pictures.burnish),
                                           load_picture(exposed.scene, pictures.peer),
                                           exposed.truth ? &*exposed.truth : nullptr);
@@ -211,12 +213,12 @@ Size size_from(const std::string& word) {
 /// once, and rounds of one scene lie far apart.
 bool run(const Options& options, const fs::path& program) {
     fs::create_directories(options.output);
-    const Pictures pictures(options.output);
+    const Pictures pictures(options.output, options.peer);
     const Runner runner(program.parent_path() / "peer_frames", options);
     std::vector<Measurement> all = first_round(options, runner, pictures);
     for (int round = 1; round < options.rounds; ++round)
-        for (Measurement& m : all) take_turns(m, runner, pictures);
-    const Surroundings surroundings{processor(), runner.realtime(), options.rounds};
+        for (Measurement& m : all) take_turns(m, options.peer, runner, pictures);
+    const Surroundings surroundings{processor(), options.peer, runner.realtime(), options.rounds};
     const std::string text = report(all, surroundings);
     fmt::print("{}", text);
     write(options.output / "peers.json", json(all, surroundings));
@@ -232,7 +234,9 @@ int main(int argc, char** argv) {
     namespace peers = burnish::peers;
     peers::Options options;
     for (const std::string_view name : peers::scene_names()) options.scenes.emplace_back(name);
-    CLI::App app("Compares burnish with Mesa's llvmpipe: times, pictures, ratios.");
+    CLI::App app("Compares burnish with another software renderer: times, pictures, ratios.");
+    app.add_option("--peer", options.peer, "llvmpipe (OpenGL), lavapipe or swiftshader (Vulkan)")
+        ->check(CLI::IsMember({"llvmpipe", "lavapipe", "swiftshader"}));
     app.add_option("--scenes", options.scenes, "of docs/performance.md; default: all")
         ->delimiter(',');
     app.add_option("--threads", options.threads)->delimiter(',')->check(CLI::Range(1, 1024));

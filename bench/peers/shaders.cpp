@@ -15,6 +15,11 @@ layout(std140, binding = 0) uniform Frame {
 #define EXPONENT_HIGH numbers.z
 #define SPECULAR_SCALE numbers.w
 const float kZero = 128.0 / 255.0;
+#ifdef VULKAN
+#define UNIT(n) layout(set = 1, binding = n)
+#else
+#define UNIT(n) layout(binding = n)
+#endif
 )";
 
 constexpr const char* kVertexInputs = R"(
@@ -48,10 +53,10 @@ layout(location = 0) in vec2 st;
 layout(location = 1) in vec4 half_vector;
 layout(location = 2) in float n_dot_l;
 layout(location = 0) out vec4 color;
-layout(binding = 0) uniform sampler2D tangent_map;
-layout(binding = 1) uniform sampler2D bitangent_map;
+UNIT(0) uniform sampler2D tangent_map;
+UNIT(1) uniform sampler2D bitangent_map;
 #ifdef SPECULAR_MAP
-layout(binding = 2) uniform sampler2D specular_map;
+UNIT(2) uniform sampler2D specular_map;
 #endif
 void main() {
     float x = dot(texture(tangent_map, st).xyz, half_vector.xyz) - half_vector.w;
@@ -86,12 +91,12 @@ vec3 unit(vec3 x) { return x * inversesqrt(dot(x, x)); }
 )";
 
 constexpr const char* kBlinnPhongFragment = R"(
-layout(binding = 0) uniform sampler2D tangent_map;
-layout(binding = 1) uniform sampler2D bitangent_map;
-layout(binding = 2) uniform sampler2D normal_map;
-layout(binding = 3) uniform sampler2D specular_map;
+UNIT(0) uniform sampler2D tangent_map;
+UNIT(1) uniform sampler2D bitangent_map;
+UNIT(2) uniform sampler2D normal_map;
+UNIT(3) uniform sampler2D specular_map;
 #ifdef POWER_TABLE
-layout(binding = 4) uniform sampler2D power_table;
+UNIT(4) uniform sampler2D power_table;
 #endif
 void main() {
     vec3 l = unit(to_light);
@@ -112,10 +117,10 @@ void main() {
 )";
 
 constexpr const char* kWardFragment = R"(
-layout(binding = 0) uniform sampler2D tangent_map;
-layout(binding = 1) uniform sampler2D bitangent_map;
-layout(binding = 2) uniform sampler2D normal_map;
-layout(binding = 3) uniform sampler2D specular_map;
+UNIT(0) uniform sampler2D tangent_map;
+UNIT(1) uniform sampler2D bitangent_map;
+UNIT(2) uniform sampler2D normal_map;
+UNIT(3) uniform sampler2D specular_map;
 void main() {
     vec3 l = unit(to_light);
     vec3 v = unit(to_eye);
@@ -136,9 +141,9 @@ void main() {
 )";
 
 constexpr const char* kBanksFragment = R"(
-layout(binding = 0) uniform sampler2D tangent_map;
-layout(binding = 1) uniform sampler2D normal_map;
-layout(binding = 2) uniform sampler2D specular_map;
+UNIT(0) uniform sampler2D tangent_map;
+UNIT(1) uniform sampler2D normal_map;
+UNIT(2) uniform sampler2D specular_map;
 void main() {
     vec3 l = unit(to_light);
     vec3 v = unit(to_eye);
@@ -166,7 +171,7 @@ constexpr const char* kTexturedFragment = R"(
 layout(location = 0) in vec2 st;
 layout(location = 1) in vec3 vertex_color;
 layout(location = 0) out vec4 color;
-layout(binding = 0) uniform sampler2D map;
+UNIT(0) uniform sampler2D map;
 void main() { color = vec4(texture(map, st).rgb * vertex_color, 1.0); }
 )";
 
@@ -180,7 +185,7 @@ void main() {
 constexpr const char* kLayerFragment = R"(
 layout(location = 0) in vec2 st;
 layout(location = 0) out vec4 color;
-layout(binding = 0) uniform sampler2D map;
+UNIT(0) uniform sampler2D map;
 void main() { color = texture(map, st); }
 )";
 

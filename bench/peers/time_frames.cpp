@@ -60,7 +60,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
     burnish::peers::Options options;
     CLI::App app("Times the frames of one renderer.");
-    app.add_option("contender", options.contender, "burnish or llvmpipe")->required();
+    app.add_option("contender", options.contender, "burnish, llvmpipe, lavapipe or swiftshader")
+        ->required();
     app.add_option("scene", options.scene)->required();
     app.add_option("--width", options.width)->check(CLI::Range(1, 16384));
     app.add_option("--height", options.height)->check(CLI::Range(1, 16384));

@@ -56,10 +56,6 @@ bool is_texel_scalar(const Expr& e) {
     return e.kind == ValueKind::scalar && e.binding != Binding::pixel;
 }
 
-bool is_negation(const Expr& e) {
-    return e.op == ExprOp::multiply && is_number(*e.args[0], -1.0);
-}
-
 }  // namespace
 
 struct ExprBuilder::Table {
@@ -449,6 +445,14 @@ const Expr* symmetric_clamp(const Expr& e) {
 
 bool is_number(const Expr& expr, double value) {
     return expr.op == ExprOp::constant && expr.kind == ValueKind::scalar && expr.value.x == value;
+}
+
+bool is_negation(const Expr& e) {
+    return e.op == ExprOp::multiply && is_number(*e.args[0], -1.0);
+}
+
+bool is_one_minus(const Expr& e) {
+    return e.op == ExprOp::add && is_number(*e.args[0], 1.0) && is_negation(*e.args[1]);
 }
 
 }  // namespace burnish

@@ -148,4 +148,10 @@ const Expr* symmetric_clamp(const Expr& expr);
 /// Whether `expr` is the scalar constant `value`.
 bool is_number(const Expr& expr, double value);
 
+/// -x, as -1 times x.
+bool is_negation(const Expr& expr);
+
+/// 1 - x.
+bool is_one_minus(const Expr& expr);
+
 }  // namespace burnish

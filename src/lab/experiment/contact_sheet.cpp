@@ -8,6 +8,7 @@
 #include <burnish/files.hpp>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string_view>
 
 #include "lab/experiment/pictures.hpp"
 #include "metrics/pixel.hpp"
@@ -60,19 +61,33 @@ std::string labels_of(const Results& results, std::size_t cell) {
 /// A cell as it is shown.
 struct Row {
     std::string labels, numbers;
+    std::vector<std::string> reasons;   ///< why a cell was refused, a line each
     std::vector<Framebuffer> pictures;  ///< none of a cell that was refused
 
     [[nodiscard]] int height() const {
-        return kLine + (pictures.empty() ? kLine : pictures.front().height() + kGap);
+        return kLine + (pictures.empty() ? kLine * static_cast<int>(reasons.size())
+                                         : pictures.front().height() + kGap);
     }
     [[nodiscard]] int column() const { return pictures.empty() ? 0 : pictures.front().width(); }
 };
 
+/// A refusal names everything that is missing, with semicolons between.
+std::vector<std::string> reasons_of(std::string_view refusal) {
+    constexpr std::string_view kBetween = "; ";
+    std::vector<std::string> reasons;
+    while (!refusal.empty()) {
+        const std::size_t end = std::min(refusal.find(kBetween), refusal.size());
+        reasons.emplace_back(refusal.substr(0, end));
+        refusal.remove_prefix(std::min(end + kBetween.size(), refusal.size()));
+    }
+    return reasons;
+}
+
 Row row_of(const Results& results, std::size_t cell, const Store& store) {
     Row row;
     row.labels = labels_of(results, cell);
-    row.numbers = results.found[cell]->refusal;
-    if (!row.numbers.empty()) return row;
+    row.reasons = reasons_of(results.found[cell]->refusal);
+    if (!row.reasons.empty()) return row;
     for (const auto& [metric, name] : {std::pair{"rmse", "RMSE"}, std::pair{"flip", "FLIP"}})
         if (const std::optional<double> value = results.value(cell, metric))
             row.numbers +=
@@ -127,8 +142,9 @@ Page draw_page(const ExperimentSheet& sheet, std::vector<Row>& rows, std::string
     int y = 2 * kLine;
     for (Row& row : rows) {
         page.write(kGap, y, row.labels, kInk);
-        const bool refused = row.pictures.empty();
-        page.write(refused ? kGap : x(2), refused ? y + kLine : y, row.numbers, kPaleInk);
+        page.write(x(2), y, row.numbers, kPaleInk);
+        for (std::size_t i = 0; i < row.reasons.size(); ++i)
+            page.write(kGap, y + kLine * (static_cast<int>(i) + 1), row.reasons[i], kPaleInk);
         for (std::size_t i = 0; i < row.pictures.size(); ++i)
             page.place(x(static_cast<int>(i)), y + kLine, row.pictures[i]);
         y += row.height();
