@@ -764,7 +764,7 @@ void add_levels() {
     table.t.plane = -1;
     add_packet_stage("look_up_table/of_one", &KernelTable::look_up_table, packet, table,
                      {.planes = {20}});
-    static const std::vector<std::int16_t> codes(65536, 12850);  // words of two bytes 77
+    static const std::vector<std::int16_t> codes(65536, 13139);  // of two bytes 77
     LookUpTableCtx whole = table;
     whole.codes = codes.data();
     add_packet_stage("look_up_table/of_codes", &KernelTable::look_up_table, packet, whole,

@@ -14,31 +14,35 @@ I16 short_product_255(I16 a72, I16 b114) {
     return mul_round(mul_round(a72, b114), I16(513));
 }
 
+/// Any mapping of a register value e, times `scale`: max(e, low) * factor + offset, which may wrap
+/// on the way.
+template <std::int16_t One, std::int16_t Half>
+struct FactorMap {
+    FactorMap(std::uint8_t mapping, std::int16_t scale) {
+        static constexpr std::int16_t kNumbers[8][3] = {
+            {0, 1, 0},          // unsigned_identity
+            {0, -1, One},       // unsigned_invert
+            {0, 2, -2 * Half},  // expand
+            {0, -2, 2 * Half},  // expand_negate
+            {0, 1, -Half},      // half_bias
+            {0, -1, Half},      // half_bias_negate
+            {-32768, 1, 0},     // signed_identity
+            {-32768, -1, 0},    // signed_negate
+        };
+        low = I16(kNumbers[mapping][0]);
+        factor = I16(static_cast<std::int16_t>(scale * kNumbers[mapping][1]));
+        offset = I16(static_cast<std::int16_t>(scale * kNumbers[mapping][2]));
+    }
+    I16 operator()(I16 e) const { return max(e, low) * factor + offset; }
+    I16 low, factor, offset;
+};
+
 /// The nine-bit model: one 16-bit lane holds every intermediate value (|x| <= 4 * 1542).
 struct NineBit {
     using Value = I16;
     static constexpr std::int16_t kOne = 255, kHalf = 128, kHighest = 255, kLowest = -255;
 
-    /// Any mapping of a register value e, times `scale`: max(e, low) * factor + offset.
-    struct Map {
-        Map(std::uint8_t mapping, std::int16_t scale) {
-            static constexpr std::int16_t kNumbers[8][3] = {
-                {0, 1, 0},           // unsigned_identity
-                {0, -1, kOne},       // unsigned_invert
-                {0, 2, -2 * kHalf},  // expand
-                {0, -2, 2 * kHalf},  // expand_negate
-                {0, 1, -kHalf},      // half_bias
-                {0, -1, kHalf},      // half_bias_negate
-                {-32768, 1, 0},      // signed_identity
-                {-32768, -1, 0},     // signed_negate
-            };
-            low = I16(kNumbers[mapping][0]);
-            factor = I16(static_cast<std::int16_t>(scale * kNumbers[mapping][1]));
-            offset = I16(static_cast<std::int16_t>(scale * kNumbers[mapping][2]));
-        }
-        I16 operator()(I16 e) const { return max(e, low) * factor + offset; }
-        I16 low, factor, offset;
-    };
+    using Map = FactorMap<kOne, kHalf>;
     static constexpr std::int16_t kScaleA = 64, kScaleB = 2;  // of the operands of product()
     static Value product(I16 a, I16 b) { return product_255(a, b); }
     static Value add(Value a, Value b) { return a + b; }
@@ -178,26 +182,7 @@ struct WideBounded {
     using Value = I16;
     static constexpr std::int16_t kOne = 16384, kHalf = 8192;
 
-    /// Any mapping of a register value e: max(e, low) * factor + offset, which may wrap on the way.
-    struct Map {
-        Map(std::uint8_t mapping, std::int16_t /*scale*/) {
-            static constexpr std::int16_t kNumbers[8][3] = {
-                {0, 1, 0},           // unsigned_identity
-                {0, -1, kOne},       // unsigned_invert
-                {0, 2, -2 * kHalf},  // expand
-                {0, -2, 2 * kHalf},  // expand_negate
-                {0, 1, -kHalf},      // half_bias
-                {0, -1, kHalf},      // half_bias_negate
-                {-32768, 1, 0},      // signed_identity
-                {-32768, -1, 0},     // signed_negate
-            };
-            low = I16(kNumbers[mapping][0]);
-            factor = I16(kNumbers[mapping][1]);
-            offset = I16(kNumbers[mapping][2]);
-        }
-        I16 operator()(I16 e) const { return max(e, low) * factor + offset; }
-        I16 low, factor, offset;
-    };
+    using Map = FactorMap<kOne, kHalf>;
     static constexpr std::int16_t kScaleA = 1, kScaleB = 1;
     static Value product(I16 a, I16 b) { return mul_14_bits(a, b); }
     static Value add(Value a, Value b) { return ::xsimd::sadd(a, b); }
