@@ -45,6 +45,7 @@ struct PortionRun {
                    .bias_minus_half = 0,
                    .wide = 0,
                    .components = 3,
+                   .bounded = 0,
                    .mux_plane = 12,
                    .ab_out = {14, 15, 16},
                    .cd_out = {17, 18, 19},
