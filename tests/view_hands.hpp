@@ -100,7 +100,9 @@ class Hands {
         for (int tries = 0; tries < 1200; ++tries) {
             for (const auto& entry : std::filesystem::directory_iterator(m_directory)) {
                 const std::filesystem::path file = entry.path();
-                if (file.filename().string().find("-view-") == std::string::npos ||
+                const std::string file_name = file.filename().string();
+                // One that begins with a dot is still being written.
+                if (file_name.find("-view-") == std::string::npos || file_name.starts_with('.') ||
                     file.extension() != ".png" || !m_seen.insert(file).second)
                     continue;
                 return {file, load_image(file), load_view_state(file)};
