@@ -270,6 +270,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
         }
     }
     maps.drop_unused();
+    surfaces.drop_orphans();  // of frames in double precision before
     if (account) {
         account->clock(0).count(StageClock::place(FrameStage::prepare), scene.objects.size());
     }

@@ -56,6 +56,17 @@ TEST(SurfaceCache, KeepsWhatIsDrawnAgain) {
     EXPECT_NE(cache.of(drawn).surface, first) << "a frame was without it";
 }
 
+TEST(SurfaceCache, ForgetsWhatNobodyElseHas) {
+    auto drawn = std::make_shared<const Material>(weave(MaterialMipmaps{MipMethod::moments, 16}));
+    reference::SurfaceCache cache;
+    const std::weak_ptr<const reference::SurfaceSampler> kept = cache.of(drawn).surface;
+    cache.drop_orphans();
+    EXPECT_FALSE(kept.expired());
+    drawn.reset();
+    cache.drop_orphans();
+    EXPECT_TRUE(kept.expired());
+}
+
 TEST(SurfaceCache, FramesBeforeMakeNoDifference) {
     Scene scene;
     scene.machine = machine_profile("double");

@@ -21,4 +21,8 @@ void SurfaceCache::drop_unused() {
     for (Entry& entry : m_entries) entry.used = false;
 }
 
+void SurfaceCache::drop_orphans() {
+    std::erase_if(m_entries, [](const Entry& entry) { return entry.material.use_count() == 1; });
+}
+
 }  // namespace burnish::reference

@@ -26,6 +26,8 @@ class SurfaceCache {
     ExactMaterial of(const std::shared_ptr<const Material>& material);
     /// Forgets what was not asked for since the last call.
     void drop_unused();
+    /// Forgets materials that nobody else has: none of them can be drawn again.
+    void drop_orphans();
 
   private:
     struct Entry {
