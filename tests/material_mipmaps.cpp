@@ -80,7 +80,9 @@ TEST(SurfaceCache, FramesBeforeMakeNoDifference) {
         Renderer({.threads = 1}).render(scene, want);
         for (int frame = 0; frame < 2; ++frame) {
             renderer.render(scene, got);
-            EXPECT_EQ(std::memcmp(got.row(0), want.row(0), got.pitch() * 30), 0);
+            EXPECT_EQ(
+                std::memcmp(got.row(0), want.row(0), static_cast<std::size_t>(got.pitch()) * 30),
+                0);
         }
     }
 }
