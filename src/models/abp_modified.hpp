@@ -18,8 +18,8 @@ class DerivedMaps {
     /// Models that compile_model made.
     CompiledModels models;
 
-    /// Forgets what was not asked for since the last call.
-    void drop_unused();
+    /// Forgets what was not asked for since the last call but `frames` - 1.
+    void drop_unused(int frames = 1);
 
   private:
     struct Entry {
@@ -27,7 +27,7 @@ class DerivedMaps {
         int axis;
         float factor;
         TexturePtr map;
-        bool used;
+        int idle;  ///< calls of drop_unused since it was asked for
     };
     std::vector<Entry> m_entries;
 };

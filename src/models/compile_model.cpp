@@ -220,7 +220,7 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
     for (const auto& e : m_entries) {
         if (e->material == material && e->machine == machine && e->light == light &&
             e->ambient == ambient) {
-            e->used = true;
+            e->idle = 0;
             return e->model;
         }
     }
@@ -231,12 +231,12 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
     }
     CompiledModel model = m_compiler->compile(machine, light, ambient);
     m_entries.push_back(
-        std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), true}));
+        std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), 0}));
     return m_entries.back()->model;
 }
 
-void CompiledModels::drop_unused() {
-    std::erase_if(m_entries, [](const auto& e) { return !e->used; });
+void CompiledModels::drop_unused(int frames) {
+    std::erase_if(m_entries, [frames](const auto& e) { return e->idle >= frames; });
     const bool is_drawn = std::any_of(m_entries.begin(), m_entries.end(), [&](const auto& e) {
         return e->material == m_compiled_last;
     });
@@ -244,7 +244,7 @@ void CompiledModels::drop_unused() {
         m_compiler.reset();
         m_compiled_last.reset();
     }
-    for (const auto& e : m_entries) e->used = false;
+    for (const auto& e : m_entries) ++e->idle;
 }
 
 std::vector<LayerQuantity> material_layer(const Material& material, const Machine& machine) {

@@ -74,8 +74,8 @@ class CompiledModels {
                              const Machine& machine, const glm::vec3& light,
                              const glm::vec3& ambient);
 
-    /// Forgets what was not asked for since the last call.
-    void drop_unused();
+    /// Forgets what was not asked for since the last call but `frames` - 1.
+    void drop_unused(int frames = 1);
 
   private:
     struct Entry {
@@ -83,7 +83,7 @@ class CompiledModels {
         Machine machine;
         glm::vec3 light, ambient;
         CompiledModel model;
-        bool used;
+        int idle;  ///< calls of drop_unused since it was asked for
     };
     std::vector<std::unique_ptr<Entry>> m_entries;
     /// Of the material that was compiled last, which may have more lights or moving ones: kept
