@@ -184,7 +184,10 @@ ViewState state_of(const Scene& scene, const std::filesystem::path& input) {
     state.input = input;
     state.width = scene.width;
     state.height = scene.height;
-    state.camera = by_vectors(scene.camera, ball_around(scene));
+    const Ball ball = ball_around(scene);
+    state.camera = by_vectors(scene.camera, ball);
+    // A matrix without an inverse has no vectors.
+    if (!has_direction(state.camera)) state.camera = seen_from(Side::front, Camera{}, ball, 1.0F);
     return state;
 }
 

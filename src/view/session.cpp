@@ -54,25 +54,29 @@ void Session::take(Loaded loaded) {
     }
 }
 
+void Session::move_to(const Camera& camera) {
+    if (has_direction(camera)) state.camera = camera;
+}
+
 void Session::reset_camera() {
-    state.camera = by_vectors(m_loaded.camera, m_ball);
+    state.camera = state_of(m_loaded, state.input).camera;
     state.light.reset();
 }
 
 void Session::look_from(Side side) {
-    state.camera = seen_from(side, state.camera, m_ball, aspect());
+    move_to(seen_from(side, state.camera, m_ball, aspect()));
 }
 
 void Session::orbit(float right, float down) {
-    state.camera = orbited(state.camera, kOrbitDegrees * right, kOrbitDegrees * down);
+    move_to(orbited(state.camera, kOrbitDegrees * right, kOrbitDegrees * down));
 }
 
 void Session::pan(float right, float down) {
-    state.camera = panned(state.camera, right, down);
+    move_to(panned(state.camera, right, down));
 }
 
 void Session::zoom(float factor) {
-    state.camera = zoomed(state.camera, factor, m_ball);
+    move_to(zoomed(state.camera, factor, m_ball));
 }
 
 void Session::turn_light(float right, float down) {
@@ -84,8 +88,9 @@ void Session::turn_light(float right, float down) {
         towards = first.position_w == 0.0F ? first.position : first.position - m_ball.centre;
     }
     if (towards == glm::vec3(0.0F)) towards.z = 1.0F;
-    state.light = turned_light(glm::normalize(towards), state.camera, kOrbitDegrees * right,
-                               kOrbitDegrees * down);
+    const glm::vec3 turned = turned_light(glm::normalize(towards), state.camera,
+                                          kOrbitDegrees * right, kOrbitDegrees * down);
+    if (is_finite(turned)) state.light = turned;
 }
 
 std::optional<Wish> Session::wish(bool moving) {

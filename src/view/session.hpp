@@ -85,6 +85,8 @@ class Session {
     [[nodiscard]] float aspect() const;
 
   private:
+    /// Stays where it is where floats do not reach: one that is no number equals none.
+    void move_to(const Camera& camera);
     void show(Scene scene, const std::filesystem::path& input);
     void show_as_it_is(Scene scene, const std::filesystem::path& input);
 
