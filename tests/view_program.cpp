@@ -4,14 +4,11 @@
 #include <burnish/materials.hpp>
 #include <burnish/program_text.hpp>
 #include <burnish/trace.hpp>
-#include <condition_variable>
 #include <cstring>
-#include <mutex>
 
 #include "lab/stage_bits.hpp"
 #include "tests/scene_file.hpp"
 #include "view/load_thread.hpp"
-#include "view/picture_thread.hpp"
 #include "view/session.hpp"
 
 /// Programs of models that a hand edited, from the text to the picture.
@@ -279,32 +276,6 @@ TEST_F(ViewProgram, AMessageGoesWithTheNextWishThatSucceeds) {
     EXPECT_TRUE(session.wish(false));
     EXPECT_EQ(session.wish_message, "");
     EXPECT_SAYS(session.message, "nowhere.toml") << "of a file, which is still not there";
-}
-
-/// Nobody takes a picture before the finest one is there: it has the trace of an earlier one.
-TEST_F(ViewProgram, ATraceStaysWithThePictureThatOvertakesIt) {
-    scene(kSphere);
-    Session session = opened(path("s.toml"));
-    session.state.pixel = glm::ivec2(24, 12);
-    std::mutex mutex;
-    std::condition_variable changed;
-    int pictures = 0;
-    PictureThread thread(draw_once, 1000.0, [&] {
-        const std::scoped_lock lock(mutex);
-        ++pictures;
-        changed.notify_one();
-    });
-    thread.wish(session.wish(false).value());
-    {
-        std::unique_lock lock(mutex);
-        changed.wait(lock, [&] { return pictures == 4; });
-    }
-    const std::optional<Picture> picture = thread.take();
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(picture->fineness, Fineness::smoothest);
-    EXPECT_TRUE(picture->is_last);
-    ASSERT_TRUE(picture->trace);
-    EXPECT_EQ(picture->trace->x, 24);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 
+#include "view/complaint.hpp"
 #include "view/edited_scene.hpp"
 
 namespace burnish::view {
@@ -87,8 +88,8 @@ std::vector<MaterialProgram> MaterialPrograms::of(Renderer& renderer, const Scen
             program.text = print_combiners(renderer.program(scene, i).combiners);
             if (anew) inputs = inputs_text(m_models, scene, material);
             program.inputs = inputs;
-        } catch (const Error& error) {
-            program.error = error.what();
+        } catch (const std::exception& error) {
+            program.error = complaint(error);
         }
     }
     if (anew) m_models.drop_unused();
