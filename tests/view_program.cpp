@@ -205,6 +205,33 @@ TEST_F(ViewProgram, AStateBringsTheEditBack) {
     EXPECT_SAYS(complaint_of([&] { load_view_state(path("bad.toml")); }), "'combiners_text'");
 }
 
+/// Nobody opened a panel: a line says what a state asks for in vain.
+TEST_F(ViewProgram, EditsThatChangeNothingSayWhy) {
+    scene(std::string(kSphere) +
+          "[[materials]]\nname = \"flat\"\ncombiners_text = '''!!RC1.0\n"
+          "{ rgb { spare0 = col0 * col0; } }\nout.rgb = spare0; out.a = zero;\n'''\n"
+          "[[objects]]\nshape = \"cube\"\nmaterial = \"flat\"\n");
+    Session session = opened(path("s.toml"));
+    const auto messages = [&] {
+        EXPECT_TRUE(session.wish(false));
+        return session.edit_messages();
+    };
+    session.edit_of("flat").combiners = "!!RC1.0\nout.rgb = col0; out.a = zero;\n";
+    session.edit_of("steel").kd = glm::vec3(0.5F);
+    EXPECT_TRUE(messages().empty());
+    session.edit_of("iron").kd = glm::vec3(0.5F);
+    session.edit_of("flat").kd = glm::vec3(0.5F);
+    session.edit_of("steel").combiners = "garbage";
+    std::vector<std::string> found = messages();
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_SAYS(found[0], "material 'flat': a program, not a model");
+    EXPECT_SAYS(found[1], "material 'iron': ");
+    EXPECT_SAYS(found[2], "material 'steel', its text, line 1, column 1: ");
+    EXPECT_SAYS(found[2], "compiled_text");
+    session.shows_programs = true;
+    EXPECT_EQ(messages().size(), 2U) << "the panel has it at its line";
+}
+
 /// On a machine for which the model is another program, or that cannot run the edited one, the
 /// model's own is drawn and a note says why.
 TEST_F(ViewProgram, WhatDoesNotFitGivesWayToTheModels) {

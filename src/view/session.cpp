@@ -1,5 +1,7 @@
 #include "view/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <burnish/error.hpp>
@@ -126,17 +128,27 @@ std::optional<Wish> Session::wish(bool moving) {
     return wish;
 }
 
+std::vector<std::string> Session::edit_messages() const {
+    std::vector<std::string> lines = idle_edits(state, m_loaded);
+    if (shows_programs) return lines;
+    const std::string* last = nullptr;
+    for (const ProgramError& error : program_errors) {
+        if (last == nullptr || *last != error.material)
+            lines.push_back(fmt::format("material '{}', its text, line {}, column {}: {}",
+                                        error.material, error.line, error.column, error.message));
+        last = &error.material;
+    }
+    return lines;
+}
+
 MaterialEdit& Session::edit_of(const std::string& material) {
-    for (MaterialEdit& edit : state.materials)
-        if (edit.name == material) return edit;
+    if (const MaterialEdit* edit = find_edit(material))
+        return state.materials[static_cast<std::size_t>(edit - state.materials.data())];
     return state.materials.emplace_back(MaterialEdit{.name = material});
 }
 
 const MaterialEdit* Session::find_edit(const std::string& material) const {
-    const auto found =
-        std::find_if(state.materials.begin(), state.materials.end(),
-                     [&](const MaterialEdit& edit) { return edit.name == material; });
-    return found == state.materials.end() ? nullptr : &*found;
+    return view::find_edit(state, material);
 }
 
 void Session::revert_program(const std::string& material) {

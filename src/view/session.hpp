@@ -77,6 +77,9 @@ class Session {
     std::string wish_message;     ///< what went wrong with the last wish, likewise
     bool shows_programs = false;  ///< wishes ask for the programs of models
     std::vector<ProgramError> program_errors;  ///< of the last wish
+    /// What is wrong with what was changed of materials, as of the last wish, a line for each of
+    /// them; of programs only while no panel shows it.
+    [[nodiscard]] std::vector<std::string> edit_messages() const;
     [[nodiscard]] const Scene& loaded() const { return m_loaded; }
     [[nodiscard]] const Ball& ball() const { return m_ball; }
     /// Materials of the scene, each name once, in the order of the objects. Meshes without one
