@@ -223,6 +223,10 @@ void DerivedMaps::drop_unused(int frames) {
     models.drop_unused(frames);
 }
 
+bool has_own_maps(const Material& material) {
+    return material.model == Model::abp_modified && material.tangent_map && !material.mipmaps;
+}
+
 ProgramMaterial compile_abp_modified(const Material& material, const Machine& machine,
                                      const glm::vec3& light, const glm::vec3& ambient,
                                      DerivedMaps& maps) {

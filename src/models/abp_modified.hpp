@@ -32,6 +32,10 @@ class DerivedMaps {
     std::vector<Entry> m_entries;
 };
 
+/// Whether maps of the talk's model are what is drawn, past compile_model: they were made for it
+/// and are its material layer.
+bool has_own_maps(const Material& material);
+
 /// The modified anisotropic Blinn-Phong model of Kautz and Seidel's talk,
 ///   (1 - (h.t / alpha_x)^2 - (h.b / alpha_y)^2) ks light n.l + (kd light n.l + ambient),
 /// as a combiner program: both dots in stage 0, squares and their sum in stage 1, E*F and the final

@@ -214,6 +214,16 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     return ModelCompiler(material).compile(machine, light, ambient);
 }
 
+Light light_of(const Scene& scene, std::size_t number) {
+    if (scene.lights.empty()) return Light{.intensity = 0.0F};
+    return scene.lights[number];
+}
+
+LightOfModel light_of_model(const Scene& scene, std::size_t number) {
+    const Light light = light_of(scene, number);
+    return {light.color * light.intensity, number == 0 ? scene.ambient : glm::vec3(0.0F)};
+}
+
 const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& material,
                                          const Machine& machine, const glm::vec3& light,
                                          const glm::vec3& ambient) {

@@ -67,6 +67,16 @@ class ModelCompiler {
     std::unique_ptr<Parts> m_parts;
 };
 
+/// The light of that number; of a scene without lights one that is dark.
+Light light_of(const Scene& scene, std::size_t number);
+
+/// What a model is compiled for.
+struct LightOfModel {
+    glm::vec3 light;    ///< colour times intensity
+    glm::vec3 ambient;  ///< of the first light alone
+};
+LightOfModel light_of_model(const Scene& scene, std::size_t number);
+
 /// Compiled models, kept while they are drawn again.
 class CompiledModels {
   public:
