@@ -126,7 +126,7 @@ ViewState read_view_state_file(const std::filesystem::path& path) {
         const float away = glm::length(state.camera.position - state.camera.focal_point);
         if (!std::isfinite(away) || !std::isnormal(away * away))
             section.fail("position",
-                         fmt::format("'position' in [camera] is {} away from the focal point, "
+                         fmt::format("'position' in [camera] is {:.6g} away from the focal point, "
                                      "expected about 1e-18 .. 1e18",
                                      glm::length(glm::dvec3(state.camera.position) -
                                                  glm::dvec3(state.camera.focal_point))));
