@@ -177,7 +177,8 @@ struct Wide {
 };
 
 /// The wide model where no operand is beyond 1: products and, saturating, sums fit 16 bits.
-/// Whatever saturates on the way lies beyond the ends of the register in the end, too.
+/// Whatever saturates on the way lies beyond the ends of the register in the end, too, but for two
+/// products of 1 and half of 32768, which are mended where they come about.
 struct WideBounded {
     using Value = I16;
     static constexpr std::int16_t kOne = 16384, kHalf = 8192;
@@ -190,9 +191,6 @@ struct WideBounded {
     static Value sum(Value p, Value q, Value r) {
         const I16 both = equal_words(min(p, q), I16(kOne));
         return ::xsimd::ssub(::xsimd::sadd(::xsimd::sadd(p, q), r), both);
-    }
-    static Value mux(I16 selector, I16 limit, Value ab, Value cd) {
-        return ::xsimd::select(selector > limit, cd, ab);
     }
     struct Output {
         explicit Output(const PortionCtx& ctx)

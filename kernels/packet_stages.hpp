@@ -394,8 +394,10 @@ struct PortionCtx {
     std::uint8_t bias_minus_half;
     std::uint8_t wide;        ///< wide model: saturate at the register's range, not at [-1, 1]
     std::uint8_t components;  ///< 1 or 3 planes to write per output
-    std::uint8_t bounded;     ///< wide: operands' planes hold -16384 .. 16384; it may be quicker
-    std::int16_t mux_plane;   ///< spare0.alpha, for mux
+    /// Wide: the caller promises that operands' planes hold -16384 .. 16384, for which there is a
+    /// quicker way; with other codes results may be anything.
+    std::uint8_t bounded;
+    std::int16_t mux_plane;  ///< spare0.alpha, for mux
     /// Planes; unused outputs name one and the same trash plane.
     std::int16_t ab_out[3], cd_out[3], third_out[3];
 };

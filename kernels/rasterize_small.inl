@@ -95,8 +95,9 @@ inline void span_masks(const SpanEdges& e, int k, int top, std::uint64_t (&masks
 struct UsualDepth : NearerWins {
     static MaskF may_pass(const DepthRule&, F32 low, F32 far) { return low < far; }
     static bool writes(const DepthRule&) { return true; }
-    /// Upper bounds of blocks' depths afterwards; `whole`: all of their pixels are covered.
-    static F32 updated_far(const DepthRule&, F32 far, F32 high, MaskF whole) {
+    /// Upper bounds of blocks' depths afterwards; `seen`: something may pass in them, `whole`: all
+    /// of their pixels are covered.
+    static F32 updated_far(const DepthRule&, F32 far, F32 high, MaskF /*seen*/, MaskF whole) {
         return ::xsimd::select(whole, min(high, far), far);
     }
 };
@@ -106,9 +107,9 @@ struct AnyDepth : AnyRule {
         return rule.pass_equal != 0 ? low <= far : low < far;
     }
     static bool writes(const DepthRule& rule) { return rule.write != 0; }
-    static F32 updated_far(const DepthRule& rule, F32 far, F32 high, MaskF whole) {
+    static F32 updated_far(const DepthRule& rule, F32 far, F32 high, MaskF seen, MaskF whole) {
         if (rule.write == 0) return far;
-        if (rule.pass_greater != 0) return max(high, far);
+        if (rule.pass_greater != 0) return ::xsimd::select(seen, max(high, far), far);
         return rule.pass_less != 0 ? ::xsimd::select(whole, min(high, far), far) : far;
     }
 };
@@ -127,7 +128,6 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
         row[k] = z0 + to_float(lane_x() + I32(x + k * kLanes32)) * zx;
     const BlockLanes covered(pixels);
     float* const depth = ctx.depth + block * kBlockPixels;
-    std::int32_t* const id = reinterpret_cast<std::int32_t*>(ctx.id) + block * kBlockPixels;
     const I32 new_id(static_cast<std::int32_t>(ctx.first_id) + triangle);
     Mask32 any(false);
     // Where four vectors make a block the mispredicted end of the loop costs more than they do.
@@ -146,7 +146,9 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
         if (Depth::writes(ctx.rule)) store(depth + at, ::xsimd::select(as_float(write), z, old));
         if constexpr (HasIds) {
             any = any | write;
-            store(id + at, ::xsimd::select(write, new_id, load(id + at)));
+            std::int32_t* const id =
+                reinterpret_cast<std::int32_t*>(ctx.id) + block * kBlockPixels + at;
+            store(id, ::xsimd::select(write, new_id, load(id)));
         }
     }
     if constexpr (HasIds)
@@ -179,7 +181,7 @@ class CoveredBlocks {
                 const Mask32 seen =
                     ~equal_words(pixels, 0) & as_int(Depth::may_pass(m_ctx.rule, low, far));
                 store(block_far,
-                      Depth::updated_far(m_ctx.rule, far, high,
+                      Depth::updated_far(m_ctx.rule, far, high, as_float(seen),
                                          as_float(equal_words(pixels, ~std::uint64_t{0}))));
                 append_words(m_pixels + m_count, pixels, seen);
                 store(m_triangle + m_count, number);

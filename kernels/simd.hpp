@@ -408,14 +408,6 @@ inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) 
         8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
     row[0] = _mm512_permutexvar_epi16(_mm512_load_si512(kSides), _mm512_loadu_si512(p));
 }
-/// Lane k to p[k].
-inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
-    const __m256i low = _mm512_castsi512_si256(v), high = _mm512_extracti64x4_epi64(v, 1);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[0]), _mm256_castsi256_si128(low));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[1]), _mm256_extracti128_si256(low, 1));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[2]), _mm256_castsi256_si128(high));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[3]), _mm256_extracti128_si256(high, 1));
-}
 
 /// Dwords 0, 2 of each lane of a, then of b; and dwords 1, 3.
 inline I32 even_dwords(I32 a, I32 b) {
@@ -634,10 +626,6 @@ inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) 
     row[0] = _mm256_unpacklo_epi16(left, right);
     row[1] = _mm256_unpackhi_epi16(left, right);
 }
-inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[0]), _mm256_castsi256_si128(v));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p[1]), _mm256_extracti128_si256(v, 1));
-}
 
 inline I32 even_dwords(I32 a, I32 b) {
     return _mm256_castps_si256(
@@ -829,9 +817,6 @@ inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) 
         row[2 * half + 1] = zip_hi16(left, right);
     }
 }
-inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
-    store(p[0], v);
-}
 
 inline I32 even_dwords(I32 a, I32 b) {
     return _mm_castps_si128(_mm_shuffle_ps(_mm_castsi128_ps(a), _mm_castsi128_ps(b), 0x88));
@@ -1003,9 +988,6 @@ inline void load_texel_row(const std::uint8_t* p, I16 (&row)[kTexelRowVectors]) 
         row[2 * half] = zip_lo16(left, right);
         row[2 * half + 1] = zip_hi16(left, right);
     }
-}
-inline void store_lanes(I16 v, std::int16_t* const (&p)[kParts]) {
-    store(p[0], v);
 }
 
 inline I32 even_dwords(I32 a, I32 b) {

@@ -11,12 +11,6 @@ float* attribute_plane(const Packet& packet, int k) {
     return packet.attributes + k * kAttributeStride;
 }
 
-/// Sixteen-bit codes as 32-bit numbers.
-I32 load_codes(const std::int16_t* p) {
-    const I32 v = load_widened(reinterpret_cast<const std::uint16_t*>(p));
-    return (v << 16) >> 16;
-}
-
 /// number = (float(code) + offset) / divisor, of the code, of what of it is positive, or of its
 /// byte in two's complement.
 template <class Code>
@@ -26,7 +20,7 @@ void decode(const Packet& packet, const DecodeCtx& ctx, float offset_value, floa
     float* const to = attribute_plane(packet, ctx.attribute);
     const F32 offset(offset_value), divisor(divisor_value);
     for_each_vector(packet, [&](int i) {
-        store(to + i, divide(to_float(code(load_codes(from + i))) + offset, divisor));
+        store(to + i, divide(to_float(code(load_widened(from + i))) + offset, divisor));
     });
 }
 
@@ -181,10 +175,10 @@ void dim(const Packet& packet, const MagnitudeCtx& ctx, float one_value, float l
     const F32 scale(ctx.scale), bias(ctx.bias), one(one_value), low(low_value), round(round_value);
     const bool clamps = ctx.clamp_factor != 0;
     for_each_vector(packet, [&](int i) {
-        F32 f = bias + scale * divide(to_float(load_codes(magnitudes + i)), one);
+        F32 f = bias + scale * divide(to_float(load_widened(magnitudes + i)), one);
         if (clamps) f = min(max(f, F32(0.0F)), F32(1.0F));
         for (int c = 0; c < 3; ++c) {
-            const F32 x = to_float(load_codes(from + c * kPacketSize + i)) * f + round;
+            const F32 x = to_float(load_widened(from + c * kPacketSize + i)) * f + round;
             store_narrowed(to + c * kPacketSize + i,
                            truncate(::xsimd::floor(min(max(x, low), one))));
         }

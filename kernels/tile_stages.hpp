@@ -272,9 +272,10 @@ struct RasterizeCtx {
 /// beyond the frame as well where they reach there.
 /// The ids are first_id and those that follow; offset_x of the TileTriangle would be
 /// left - reference_x. Pixels of a mask lie inside the tile, boxes reach into it.
+inline constexpr int kMostEntries = 32768;
 struct RasterizeEntriesCtx {
     const TileEntry* entries;
-    int count;
+    int count;  ///< at most kMostEntries
     const SetupTriangle* triangles;
     DepthRule rule;
     std::int32_t left, top;  ///< pixel of the frame at the tile's corner

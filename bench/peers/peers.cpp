@@ -59,7 +59,7 @@ struct Options {
     int rounds = 3;
     double seconds = 0.5;
     fs::path output = "out/peers";
-    fs::path document;  ///< whose section "peers" the table replaces; empty: none
+    fs::path document;  ///< whose section the table replaces; empty: none
     bool realtime = true;
 };
 
@@ -223,7 +223,10 @@ bool run(const Options& options, const fs::path& program) {
     fmt::print("{}", text);
     write(options.output / "peers.json", json(all, surroundings));
     write(options.output / "peers.md", text);
-    if (!options.document.empty()) lab::replace_section(options.document, "peers", text);
+    if (!options.document.empty()) {
+        const bool usual = options.peer == Options{}.peer;
+        lab::replace_section(options.document, usual ? "peers" : options.peer, text);
+    }
     return std::ranges::all_of(all, &Measurement::agree);
 }
 
@@ -248,7 +251,8 @@ int main(int argc, char** argv) {
     app.add_option("--rounds", options.rounds, "processes of each")->check(CLI::Range(1, 1000));
     app.add_option("--seconds", options.seconds, "of frames in a process, at least");
     app.add_option("-o,--output", options.output, "folder for peers.json and peers.md");
-    app.add_option("--document", options.document, "file whose section \"peers\" to replace");
+    app.add_option("--document", options.document,
+                   "file whose section \"peers\", or that of --peer's name, to replace");
     app.add_flag("!--ordinary-priority", options.realtime, "never ask for real-time priority");
     CLI11_PARSE(app, argc, argv);
     try {

@@ -31,8 +31,8 @@ struct VulkanImage {
 /// A device with one queue, and objects in its memory, which is the host's.
 class VulkanDevice {
   public:
-    /// Sets the environment that the driver and the loader read, unless the user did. `threads` is
-    /// for lavapipe; SwiftShader has a thread for each core. Throws std::runtime_error where the
+    /// Sets the environment that the driver and the loader read, but not the place of SwiftShader
+    /// where the user did. `threads` is for lavapipe; SwiftShader has a thread for each core. Throws std::runtime_error where the
     /// driver is not to be had.
     VulkanDevice(VulkanDriver driver, int threads);
 

@@ -40,7 +40,9 @@ std::size_t chunk_size(FrameSize frame, std::size_t triangles) {
     constexpr std::size_t kChunks = 32;  // 5 instead of 32 left one of two workers idle a fifth
     const auto count = static_cast<std::size_t>(tiles(frame.width)) *
                        static_cast<std::size_t>(tiles(frame.height));
-    const std::size_t most = std::clamp<std::size_t>(kMaxEntries / count, 64, 4096);
+    constexpr std::size_t kLargest = 4096;
+    static_assert(kLargest * (ClipPolygon::kMaxCorners - 2) <= kMostEntries);  // of one tile
+    const std::size_t most = std::clamp<std::size_t>(kMaxEntries / count, 64, kLargest);
     return std::clamp<std::size_t>(triangles / kChunks, 64, most);
 }
 

@@ -58,7 +58,8 @@ class PacketShader {
     void reset_count() { m_shaded = 0; }
 
   private:
-    /// Fragments of one triangle: where they are shaded and, unless that is the same, stored.
+    /// Fragments of one triangle: where they are shaded and, where the list does not outlive the
+    /// call, stored; else null.
     struct Fragments {
         const std::uint16_t* shaded;
         const std::uint16_t* stored;
@@ -95,8 +96,9 @@ class PacketShader {
     Packet m_packet{};
     bool m_interpolates = false;  ///< the draw needs runs
     bool m_needs_depth = false;   ///< and those of the depth
-    bool m_copied =
-        false;  ///< the packet's pixels are m_pixels; m_stored, if they are stored apart
+    /// The packet's pixels need no copy: they are m_pixels, and m_stored where they are stored
+    /// apart, or lie in a list that stays.
+    bool m_copied = false;
     AlignedVector<std::uint16_t> m_pixels, m_stored;
     /// A triangle with fragments, the first of them; the next one's is its end.
     struct Visible {

@@ -276,11 +276,14 @@ struct EditedProgram {
 /// One draw. Objects are drawn in the order of the scene.
 struct Object {
     std::variant<Mesh, RawVertices> geometry;
-    std::shared_ptr<const Material> material;  ///< null: the default material
-    glm::mat4 world_from_object{1.0F};         ///< rotation, uniform scale, translation
+    /// Null: the default material. Renderers keep what they made of a material as long as it lives
+    /// and know it by its address: a changed one is a new object.
+    std::shared_ptr<const Material> material;
+    glm::mat4 world_from_object{1.0F};  ///< rotation, uniform scale, translation
     RasterState raster;
     /// Of a material with a model; null: the model's own program. A frame cannot be drawn where the
-    /// model is compiled to another program than EditedProgram::own, but for constants.
+    /// model is compiled to another program than EditedProgram::own, but for constants. Double
+    /// precision has formulas and takes no notice.
     std::shared_ptr<const EditedProgram> edited = {};
 };
 

@@ -224,8 +224,8 @@ class Texture {
     /// Which of the textures of a quartet this is, 0 .. 3; -1 outside of one.
     [[nodiscard]] int place() const noexcept { return m_place; }
     [[nodiscard]] bool is_table() const noexcept { return m_is_table; }
-    /// Of a table of one dimension: what every code of a wide register finds in it, at
-    /// code & 65535; else null.
+    /// Of a table of one dimension that is not summed: what every code of a wide register finds in
+    /// it, at code & 65535; else null.
     [[nodiscard]] const std::int16_t* codes() const noexcept {
         return m_codes ? m_codes->data() : nullptr;
     }
