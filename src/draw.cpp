@@ -7,6 +7,7 @@
 
 #include "geometry/clip.hpp"
 #include "machine/show_register.hpp"
+#include "models/compile_model.hpp"
 #include "models/edited_program.hpp"
 
 namespace burnish {
@@ -65,11 +66,6 @@ std::size_t light_count(const Scene& scene) {
                     fmt::format("{} lights, expected at most {}", scene.lights.size(), kMaxLights));
     }
     return std::max(scene.lights.size(), std::size_t{1});
-}
-
-Light light_of(const Scene& scene, std::size_t number) {
-    if (scene.lights.empty()) return Light{.intensity = 0.0F};
-    return scene.lights[number];
 }
 
 void transform_mesh(Draw& draw, const FrameView& frame, const Object& object, const Mesh& mesh,
@@ -173,14 +169,9 @@ ProgramMaterial program_of(const Object& object, const Scene& scene, std::size_t
                 "material '{}': a reflectance model needs a mesh, raw vertices need a program",
                 material->name));
     }
-    const Light source = light_of(scene, light);
     const Machine machine = scene.machine.for_programs();
-    const glm::vec3 color = source.color * source.intensity;
-    const glm::vec3 ambient = light == 0 ? scene.ambient : glm::vec3(0.0F);
-    // Maps that were made for the talk's model are its material layer.
-    const bool has_maps =
-        material->model == Model::abp_modified && material->tangent_map && !material->mipmaps;
-    ProgramMaterial program = has_maps
+    const auto [color, ambient] = light_of_model(scene, light);
+    ProgramMaterial program = has_own_maps(*material)
                                   ? compile_abp_modified(*material, machine, color, ambient, maps)
                                   : maps.models.get(material, machine, color, ambient).program;
     apply_edit(object, machine, light, program);

@@ -5,6 +5,7 @@
 #include <burnish/error.hpp>
 #include <burnish/renderer.hpp>
 #include <chrono>
+#include <exception>
 #include <new>
 
 #include "core/cpu.hpp"
@@ -138,7 +139,29 @@ struct Renderer::State {
     TileOrder tile_order;
     AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
+    std::size_t programs_asked = 0;  ///< since maps were swept
     HalfVectorCube half_cube;
+
+    void sweep_maps(int frames) {
+        maps.drop_unused(frames);
+        programs_asked = 0;
+    }
+    /// What a frame did not need is forgotten, however it ends. What follows an object that is
+    /// refused was not asked for: it stays for another frame.
+    class Sweep {
+      public:
+        explicit Sweep(State& state) : m_state(state) {}
+        ~Sweep() {
+            m_state.sweep_maps(std::uncaught_exceptions() > m_exceptions ? 2 : 1);
+            m_state.surfaces.drop_orphans();  // of frames in double precision before
+        }
+        Sweep(const Sweep&) = delete;
+        Sweep& operator=(const Sweep&) = delete;
+
+      private:
+        State& m_state;
+        int m_exceptions = std::uncaught_exceptions();
+    };
 };
 
 Renderer::Renderer(const RendererOptions& options) : m_state(std::make_unique<State>(options)) {}
@@ -181,7 +204,14 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) 
 ProgramMaterial Renderer::program(const Scene& scene, std::size_t object) {
     require_machine(scene, "a program");
     scene.machine.validate();
-    Object own = scene.objects.at(object);
+    if (object >= scene.objects.size())
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("object {} of a scene that has {}, counted from 0", object,
+                                scene.objects.size()));
+    // Without frames between them nobody else forgets: all objects once are as a frame.
+    if (m_state->programs_asked >= scene.objects.size()) m_state->sweep_maps(2);
+    ++m_state->programs_asked;
+    Object own = scene.objects[object];
     own.edited = nullptr;
     return program_of(own, scene, 0, m_state->maps);
 }
@@ -252,6 +282,7 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
     next_range = 0;
     std::size_t triangles = 0;
     bool all_write_depths = true;
+    const Sweep sweep(*this);
     for (std::size_t i = 0; i < draws.size(); ++i) {
         watch.require_wanted();
         prepare_draw(*draws[i], frame, scene.objects[i], maps);
@@ -269,8 +300,6 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
             ranges.push_back({i, first, std::min(first + step, count)});
         }
     }
-    maps.drop_unused();
-    surfaces.drop_orphans();  // of frames in double precision before
     if (account) {
         account->clock(0).count(StageClock::place(FrameStage::prepare), scene.objects.size());
     }

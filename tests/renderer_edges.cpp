@@ -295,6 +295,48 @@ TEST(Edges, FramesAreBlackAndBeginAtLinesAndWhereLargeAtHugePages) {
     check(1024, 768, kHugePage);
 }
 
+/// What a frame made of its materials goes with them, even if it never came to an end.
+TEST(Edges, MaterialsOfRefusedFramesAreForgotten) {
+    for (const char* machine : {"ideal", "double"}) {
+        Scene scene = black_scene(machine);
+        scene.objects.push_back({Mesh(shapes::cube()), nullptr, glm::mat4(1.0F), {}});
+        scene.objects.push_back({RawVertices{}, nullptr, glm::mat4(1.0F), {}});
+        Framebuffer frame(8, 8);
+        Renderer renderer({.threads = 1});
+        std::vector<std::weak_ptr<const Material>> seen;
+        const auto alive = [&] {
+            return std::count_if(seen.begin(), seen.end(),
+                                 [](const auto& each) { return !each.expired(); });
+        };
+        const auto next = [&] {
+            scene.objects[0].material = std::make_shared<const Material>();
+            seen.push_back(scene.objects[0].material);
+        };
+        for (int i = 0; i < 8; ++i) {
+            next();
+            EXPECT_THROW(renderer.render(scene, frame), Error);
+        }
+        EXPECT_LE(alive(), 2) << machine;
+        if (scene.machine.double_precision) continue;
+        for (int i = 0; i < 16; ++i) {
+            next();
+            renderer.program(scene, 0);
+        }
+        EXPECT_LE(alive(), 6) << "three rounds of as many as there are objects";
+    }
+}
+
+TEST(Edges, ProgramsAreOfObjectsThatAreThere) {
+    Renderer renderer({.threads = 1});
+    try {
+        renderer.program(black_scene(), 99);
+        ADD_FAILURE() << "of object 99 of none";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_option);
+        EXPECT_STREQ(error.what(), "object 99 of a scene that has 0, counted from 0");
+    }
+}
+
 TEST(Edges, RenderersAndFramesMove) {
     Scene scene = black_scene();
     scene.objects.push_back(raw_object(

@@ -4,14 +4,11 @@
 #include <burnish/materials.hpp>
 #include <burnish/program_text.hpp>
 #include <burnish/trace.hpp>
-#include <condition_variable>
 #include <cstring>
-#include <mutex>
 
 #include "lab/stage_bits.hpp"
 #include "tests/scene_file.hpp"
 #include "view/load_thread.hpp"
-#include "view/picture_thread.hpp"
 #include "view/session.hpp"
 
 /// Programs of models that a hand edited, from the text to the picture.
@@ -208,6 +205,33 @@ TEST_F(ViewProgram, AStateBringsTheEditBack) {
     EXPECT_SAYS(complaint_of([&] { load_view_state(path("bad.toml")); }), "'combiners_text'");
 }
 
+/// Nobody opened a panel: a line says what a state asks for in vain.
+TEST_F(ViewProgram, EditsThatChangeNothingSayWhy) {
+    scene(std::string(kSphere) +
+          "[[materials]]\nname = \"flat\"\ncombiners_text = '''!!RC1.0\n"
+          "{ rgb { spare0 = col0 * col0; } }\nout.rgb = spare0; out.a = zero;\n'''\n"
+          "[[objects]]\nshape = \"cube\"\nmaterial = \"flat\"\n");
+    Session session = opened(path("s.toml"));
+    const auto messages = [&] {
+        EXPECT_TRUE(session.wish(false));
+        return session.edit_messages();
+    };
+    session.edit_of("flat").combiners = "!!RC1.0\nout.rgb = col0; out.a = zero;\n";
+    session.edit_of("steel").kd = glm::vec3(0.5F);
+    EXPECT_TRUE(messages().empty());
+    session.edit_of("iron").kd = glm::vec3(0.5F);
+    session.edit_of("flat").kd = glm::vec3(0.5F);
+    session.edit_of("steel").combiners = "garbage";
+    std::vector<std::string> found = messages();
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_SAYS(found[0], "material 'flat': a program, not a model");
+    EXPECT_SAYS(found[1], "material 'iron': ");
+    EXPECT_SAYS(found[2], "material 'steel', its text, line 1, column 1: ");
+    EXPECT_SAYS(found[2], "compiled_text");
+    session.shows_programs = true;
+    EXPECT_EQ(messages().size(), 2U) << "the panel has it at its line";
+}
+
 /// On a machine for which the model is another program, or that cannot run the edited one, the
 /// model's own is drawn and a note says why.
 TEST_F(ViewProgram, WhatDoesNotFitGivesWayToTheModels) {
@@ -279,32 +303,6 @@ TEST_F(ViewProgram, AMessageGoesWithTheNextWishThatSucceeds) {
     EXPECT_TRUE(session.wish(false));
     EXPECT_EQ(session.wish_message, "");
     EXPECT_SAYS(session.message, "nowhere.toml") << "of a file, which is still not there";
-}
-
-/// Nobody takes a picture before the finest one is there: it has the trace of an earlier one.
-TEST_F(ViewProgram, ATraceStaysWithThePictureThatOvertakesIt) {
-    scene(kSphere);
-    Session session = opened(path("s.toml"));
-    session.state.pixel = glm::ivec2(24, 12);
-    std::mutex mutex;
-    std::condition_variable changed;
-    int pictures = 0;
-    PictureThread thread(draw_once, 1000.0, [&] {
-        const std::scoped_lock lock(mutex);
-        ++pictures;
-        changed.notify_one();
-    });
-    thread.wish(session.wish(false).value());
-    {
-        std::unique_lock lock(mutex);
-        changed.wait(lock, [&] { return pictures == 4; });
-    }
-    const std::optional<Picture> picture = thread.take();
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(picture->fineness, Fineness::smoothest);
-    EXPECT_TRUE(picture->is_last);
-    ASSERT_TRUE(picture->trace);
-    EXPECT_EQ(picture->trace->x, 24);
 }
 
 }  // namespace

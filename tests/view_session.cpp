@@ -77,6 +77,16 @@ TEST(ViewOrbit, ZoomNeverReachesTheFocalPoint) {
     EXPECT_LE(distance(zoomed(before, 1e-30F, ball)), 1.1e3F * ball.radius);
 }
 
+/// As a scene's file may have it: its distance squared is no float.
+TEST(ViewOrbit, ACameraFarAwayComesBack) {
+    const Ball ball{glm::vec3(0.0F), 2.0F};
+    Camera far = some_camera();
+    far.position = {0.0F, 0.0F, 1e30F};
+    far = zoomed(zoomed(far, 1.1F, ball), 1.1F, ball);
+    EXPECT_TRUE(has_direction(far));
+    EXPECT_LE(distance(far), 1.1e3F * ball.radius);
+}
+
 /// Half the angle under which the ball is seen is at most half the picture's, both ways.
 TEST(ViewOrbit, SidesSeeAllOfTheBall) {
     const Ball ball{glm::vec3(1.0F, -2.0F, 0.5F), 3.0F};
@@ -212,6 +222,10 @@ TEST_F(ViewStateFile, WrongOnesAreToldInALine) {
     EXPECT_SAYS(complaint("schema = 1\ninput = \"a\"\nsize = [0, 1]\n"), "'size'");
     EXPECT_SAYS(complaint("schema = 1\ninput = \"a\"\n[camera]\nposition = [0.0, 0.0, 0.0]\n"),
                 "focal point");
+    EXPECT_SAYS(complaint("schema = 1\ninput = \"a\"\n[camera]\nposition = [1e30, 0, 0]\n"),
+                "s.toml:4: 'position' in [camera] is 1");
+    EXPECT_SAYS(complaint("schema = 1\ninput = \"a\"\n[camera]\nposition = [1e-30, 0, 0]\n"),
+                "s.toml:4");
 }
 
 constexpr const char* kPipeline = R"(
@@ -275,6 +289,34 @@ TEST_F(ViewSession, MaterialsStayTheSameObjectsWhileNothingChanges) {
     EXPECT_EQ(first->alpha_x, 0.2F);
     session.edit_of("m").alpha_x = 0.3F;
     EXPECT_NE(session.wish(true)->scene->objects[0].material, first);
+}
+
+/// Whatever a hand does with a camera that floats do not reach, and with a matrix that has no
+/// inverse, every state equals itself.
+TEST_F(ViewSession, CamerasStayNumbers) {
+    for (const std::string camera :
+         {"position = [1e30, 0, 0]", "position = [0, 1e-30, 0]\nfocal_point = [0, 0, 0]",
+          "view_up = [0, 1e30, 0]", "view = [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1]"}) {
+        scene("[camera]\n" + camera + "\n[[objects]]\nshape = \"sphere\"\n");
+        Session session(loader());
+        session.open(path("s.toml"));
+        const auto same = [&] {
+            const ViewState state = session.state;
+            return session.state == state;
+        };
+        EXPECT_TRUE(same()) << camera;
+        session.orbit(0.1F, 0.1F);
+        session.pan(0.1F, 0.1F);
+        session.turn_light(0.1F, 0.1F);
+        EXPECT_TRUE(same()) << camera;
+        session.zoom(1.1F);
+        session.zoom(1.1F);
+        session.orbit(0.1F, 0.1F);
+        session.look_from(Side::top);
+        EXPECT_TRUE(same()) << camera;
+        session.reset_camera();
+        EXPECT_TRUE(same()) << camera;
+    }
 }
 
 TEST_F(ViewSession, StepsThroughTheDirectoryAndPassesOverWhatIsBroken) {

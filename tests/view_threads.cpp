@@ -5,6 +5,8 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 
 #include "tests/scene_file.hpp"
 #include "view/load_thread.hpp"
@@ -160,6 +162,62 @@ TEST(LoadThread, TheNewestOrderCounts) {
     EXPECT_EQ(result->error, "bad:1: found, expected");
     EXPECT_TRUE(begun.wait_for(2));
     EXPECT_FALSE(thread.take());
+}
+
+/// What nobody has taken yet when there is a newer order, of the same file, is not what came of it.
+TEST(LoadThread, AnOlderResultIsNotTheNewestOnes) {
+    Bell results, wait;
+    int reads = 0;
+    LoadThread thread(
+        [&](const std::filesystem::path&) {
+            Scene scene;
+            scene.width = ++reads;
+            if (reads == 2) {
+                EXPECT_TRUE(wait.wait_for(1));
+            }
+            return scene;
+        },
+        [&] { results.ring(); });
+    thread.order({"file"});
+    ASSERT_TRUE(results.wait_for(1));
+    thread.order({"file"});
+    EXPECT_FALSE(thread.take()) << "of the first order";
+    EXPECT_TRUE(thread.pending());
+    wait.ring();
+    ASSERT_TRUE(results.wait_for(2));
+    const std::optional<Loaded> result = thread.take();
+    ASSERT_TRUE(result && result->scene);
+    EXPECT_EQ(result->scene->width, 2);
+    EXPECT_FALSE(thread.pending());
+    EXPECT_FALSE(thread.take());
+}
+
+TEST(LoadThread, WhateverIsThrownIsALine) {
+    const auto error_of = [](const LoadScene& load) { return loaded(load, {"f"}).error; };
+    EXPECT_EQ(error_of([](const auto&) -> Scene { throw std::bad_alloc(); }), "f: out of memory");
+    EXPECT_EQ(error_of([](const auto&) -> Scene { throw std::length_error("long"); }), "f: long");
+}
+
+/// The thread lives on and says what went wrong, whether a pane fails or what is around it.
+TEST(PictureThread, WhateverIsThrownIsALine) {
+    Bell pictures;
+    PictureThread thread([](Renderer&, const Scene&, int,
+                            Framebuffer&) -> FrameStats { throw std::length_error("long"); },
+                         kBudgetMs, [&] { pictures.ring(); });
+    thread.wish(wish_number(1, true));
+    ASSERT_TRUE(pictures.wait_for(1));
+    EXPECT_EQ(thread.take()->panes.at(0).error, "long");
+    Wish wish = wish_number(2, true);
+    auto scene = std::make_shared<Scene>(*wish.scene);
+    scene->width = Framebuffer::kMaxSize + 1;
+    wish.scene = scene;
+    thread.wish(std::move(wish));
+    ASSERT_TRUE(pictures.wait_for(2));
+    const std::optional<Picture> none = thread.take();
+    ASSERT_TRUE(none);
+    EXPECT_EQ(none->id, 2U);
+    EXPECT_TRUE(none->is_last);
+    EXPECT_NE(none->panes.at(0).error, "");
 }
 
 using LoadOrders = SceneFile;

@@ -271,14 +271,17 @@ TEST_F(ViewWindow, DroppedFilesAndNeighboursAreOpened) {
     });
 }
 
+/// False if it does not come true within a minute.
+template <class Condition>
+bool wait_for(const Condition& condition) {
+    for (int tries = 0; tries < 1200 && !condition(); ++tries) Hands::pause(50);
+    return condition();
+}
+
 /// A file that takes for ever to be read, and then is none.
 TEST_F(ViewWindow, WhileAFileIsReadTheOldOneStaysInTheHand) {
     std::atomic<bool> reading{false}, may_end{false};
     std::atomic<int> drawn{0};
-    const auto wait_for = [](const auto& condition) {
-        for (int tries = 0; tries < 1200 && !condition(); ++tries) Hands::pause(50);
-        return condition();
-    };
     ViewRequest request;
     request.input = sphere();
     request.load = [&](const std::filesystem::path& file) {
@@ -304,6 +307,33 @@ TEST_F(ViewWindow, WhileAFileIsReadTheOldOneStaysInTheHand) {
         EXPECT_EQ(after.state.input, before.state.input);
         EXPECT_NEAR(degrees_between(arm(before), arm(after)), 60.0F, 3.0F);
         EXPECT_GT(count(hands.window_shot().image, {150, 30, 30}, 25), 200) << "nobody was told";
+    });
+}
+
+/// What is shown was written while another file was read that then is none.
+TEST_F(ViewWindow, AChangeDuringAnotherReadIsNotForgotten) {
+    std::atomic<bool> may_end{false};
+    std::atomic<int> shown_reads{0}, other_reads{0};
+    ViewRequest request;
+    request.input = sphere();
+    request.load = [&](const std::filesystem::path& file) {
+        if (file.filename() != "long.toml") {
+            ++shown_reads;
+            return load(file);
+        }
+        ++other_reads;
+        EXPECT_TRUE(wait_for([&] { return may_end.load(); }));
+        throw Error(ErrorCode::bad_input, "long.toml: found, expected");
+    };
+    show(request, [&](Hands& hands) {
+        hands.drop(path("long.toml"));
+        EXPECT_TRUE(wait_for([&] { return other_reads == 1; }));
+        const int before = shown_reads;
+        sphere("[machine]\nprofile = \"geforce256\"\n");
+        Hands::pause(800);  // time enough to see it and take it for the other one's
+        may_end = true;
+        EXPECT_TRUE(wait_for([&] { return shown_reads > before; })) << "never read again";
+        EXPECT_EQ(other_reads, 1);
     });
 }
 

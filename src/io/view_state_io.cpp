@@ -6,6 +6,7 @@
 #include <burnish/error.hpp>
 #include <burnish/framebuffer.hpp>
 #include <burnish/materials.hpp>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 #include <utility>
@@ -121,6 +122,14 @@ ViewState read_view_state_file(const std::filesystem::path& path) {
         if (state.camera.position == state.camera.focal_point)
             section.fail("position",
                          "'position' in [camera] is the focal point, expected two points");
+        // Or its square is no float any more.
+        const float away = glm::length(state.camera.position - state.camera.focal_point);
+        if (!std::isfinite(away) || !std::isnormal(away * away))
+            section.fail("position",
+                         fmt::format("'position' in [camera] is {:.6g} away from the focal point, "
+                                     "expected about 1e-18 .. 1e18",
+                                     glm::length(glm::dvec3(state.camera.position) -
+                                                 glm::dvec3(state.camera.focal_point))));
     }
     state.light = root.vec3("light");
     if (state.light == glm::vec3(0.0F)) root.fail("light", "'light' has no length");

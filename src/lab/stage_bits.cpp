@@ -13,6 +13,7 @@
 
 #include "core/cpu.hpp"
 #include "draw.hpp"
+#include "models/abp_modified.hpp"
 #include "models/compile_model.hpp"
 #include "models/edited_program.hpp"
 #include "raster/bin.hpp"
@@ -95,14 +96,13 @@ std::vector<TableGrid::Table> tables_of(const Shading& shading,
 FineProgram fine_program(const Object& object, const Scene& scene, std::size_t light,
                          DerivedMaps& maps) {
     const Material& material = object.material ? *object.material : Material{};
-    const bool has_maps = material.model == Model::abp_modified && material.tangent_map;
-    if (material.program || has_maps || !std::holds_alternative<Mesh>(object.geometry))
+    if (material.program || has_own_maps(material) ||
+        !std::holds_alternative<Mesh>(object.geometry))
         return {program_of(object, scene, light, maps), {}};
-    const Light source = scene.lights.empty() ? Light{.intensity = 0.0F} : scene.lights[light];
     const Machine machine = scene.machine.for_programs();
-    CompiledModel model = ModelCompiler(material).compile(
-        machine, source.color * source.intensity, light == 0 ? scene.ambient : glm::vec3(0.0F),
-        TexelPrecision::fine);
+    const auto [color, ambient] = light_of_model(scene, light);
+    CompiledModel model =
+        ModelCompiler(material).compile(machine, color, ambient, TexelPrecision::fine);
     apply_edit(object, machine, light, model.program);
     return {std::move(model.program), std::move(model.tables)};
 }

@@ -195,7 +195,7 @@ void compile_three_units(const Material& material, const Machine& machine, const
 TexturePtr DerivedMaps::axis_map(const TexturePtr& normal_map, int axis, float factor) {
     for (Entry& e : m_entries) {
         if (e.normal_map == normal_map && e.axis == axis && e.factor == factor) {
-            e.used = true;
+            e.idle = 0;
             return e.map;
         }
     }
@@ -213,14 +213,18 @@ TexturePtr DerivedMaps::axis_map(const TexturePtr& normal_map, int axis, float f
         description.box_mipmaps = normal_map->levels().size() > 1;
     }
     m_entries.push_back({normal_map, axis, factor,
-                         std::make_shared<Texture>(std::span(&image, 1), description), true});
+                         std::make_shared<Texture>(std::span(&image, 1), description), 0});
     return m_entries.back().map;
 }
 
-void DerivedMaps::drop_unused() {
-    std::erase_if(m_entries, [](const Entry& e) { return !e.used; });
-    for (Entry& e : m_entries) e.used = false;
-    models.drop_unused();
+void DerivedMaps::drop_unused(int frames) {
+    std::erase_if(m_entries, [frames](const Entry& e) { return e.idle >= frames; });
+    for (Entry& e : m_entries) ++e.idle;
+    models.drop_unused(frames);
+}
+
+bool has_own_maps(const Material& material) {
+    return material.model == Model::abp_modified && material.tangent_map && !material.mipmaps;
 }
 
 ProgramMaterial compile_abp_modified(const Material& material, const Machine& machine,

@@ -18,8 +18,8 @@ class DerivedMaps {
     /// Models that compile_model made.
     CompiledModels models;
 
-    /// Forgets what was not asked for since the last call.
-    void drop_unused();
+    /// Forgets what was not asked for since the last call but `frames` - 1.
+    void drop_unused(int frames = 1);
 
   private:
     struct Entry {
@@ -27,10 +27,14 @@ class DerivedMaps {
         int axis;
         float factor;
         TexturePtr map;
-        bool used;
+        int idle;  ///< calls of drop_unused since it was asked for
     };
     std::vector<Entry> m_entries;
 };
+
+/// Whether maps of the talk's model are what is drawn, past compile_model: they were made for it
+/// and are its material layer.
+bool has_own_maps(const Material& material);
 
 /// The modified anisotropic Blinn-Phong model of Kautz and Seidel's talk,
 ///   (1 - (h.t / alpha_x)^2 - (h.b / alpha_y)^2) ks light n.l + (kd light n.l + ambient),

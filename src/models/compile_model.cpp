@@ -214,13 +214,23 @@ CompiledModel compile_model(const Material& material, const Machine& machine,
     return ModelCompiler(material).compile(machine, light, ambient);
 }
 
+Light light_of(const Scene& scene, std::size_t number) {
+    if (scene.lights.empty()) return Light{.intensity = 0.0F};
+    return scene.lights[number];
+}
+
+LightOfModel light_of_model(const Scene& scene, std::size_t number) {
+    const Light light = light_of(scene, number);
+    return {light.color * light.intensity, number == 0 ? scene.ambient : glm::vec3(0.0F)};
+}
+
 const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& material,
                                          const Machine& machine, const glm::vec3& light,
                                          const glm::vec3& ambient) {
     for (const auto& e : m_entries) {
         if (e->material == material && e->machine == machine && e->light == light &&
             e->ambient == ambient) {
-            e->used = true;
+            e->idle = 0;
             return e->model;
         }
     }
@@ -231,12 +241,12 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
     }
     CompiledModel model = m_compiler->compile(machine, light, ambient);
     m_entries.push_back(
-        std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), true}));
+        std::make_unique<Entry>(Entry{material, machine, light, ambient, std::move(model), 0}));
     return m_entries.back()->model;
 }
 
-void CompiledModels::drop_unused() {
-    std::erase_if(m_entries, [](const auto& e) { return !e->used; });
+void CompiledModels::drop_unused(int frames) {
+    std::erase_if(m_entries, [frames](const auto& e) { return e->idle >= frames; });
     const bool is_drawn = std::any_of(m_entries.begin(), m_entries.end(), [&](const auto& e) {
         return e->material == m_compiled_last;
     });
@@ -244,7 +254,7 @@ void CompiledModels::drop_unused() {
         m_compiler.reset();
         m_compiled_last.reset();
     }
-    for (const auto& e : m_entries) e->used = false;
+    for (const auto& e : m_entries) ++e->idle;
 }
 
 std::vector<LayerQuantity> material_layer(const Material& material, const Machine& machine) {

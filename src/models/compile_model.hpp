@@ -67,6 +67,16 @@ class ModelCompiler {
     std::unique_ptr<Parts> m_parts;
 };
 
+/// The light of that number; of a scene without lights one that is dark.
+Light light_of(const Scene& scene, std::size_t number);
+
+/// What a model is compiled for.
+struct LightOfModel {
+    glm::vec3 light;    ///< colour times intensity
+    glm::vec3 ambient;  ///< of the first light alone
+};
+LightOfModel light_of_model(const Scene& scene, std::size_t number);
+
 /// Compiled models, kept while they are drawn again.
 class CompiledModels {
   public:
@@ -74,8 +84,8 @@ class CompiledModels {
                              const Machine& machine, const glm::vec3& light,
                              const glm::vec3& ambient);
 
-    /// Forgets what was not asked for since the last call.
-    void drop_unused();
+    /// Forgets what was not asked for since the last call but `frames` - 1.
+    void drop_unused(int frames = 1);
 
   private:
     struct Entry {
@@ -83,7 +93,7 @@ class CompiledModels {
         Machine machine;
         glm::vec3 light, ambient;
         CompiledModel model;
-        bool used;
+        int idle;  ///< calls of drop_unused since it was asked for
     };
     std::vector<std::unique_ptr<Entry>> m_entries;
     /// Of the material that was compiled last, which may have more lights or moving ones: kept

@@ -98,9 +98,15 @@ DoubleScene double_scene(const Scene& scene, int width, int height,
         out.lights.push_back({glm::dvec3(light.position), light.position_w == 0.0F ? 0.0 : 1.0,
                               glm::dvec3(light.color) * static_cast<double>(light.intensity)});
     }
-    for (const Object& object : scene.objects)
-        out.objects.push_back(double_object(object, scene.machine.filter_order, layer_machine,
-                                            machine_grid, surfaces));
+    try {
+        for (const Object& object : scene.objects)
+            out.objects.push_back(double_object(object, scene.machine.filter_order, layer_machine,
+                                                machine_grid, surfaces));
+    } catch (...) {
+        // What comes after the refused object was not asked for: a frame's patience.
+        if (surfaces != nullptr) surfaces->drop_unused(2);
+        throw;
+    }
     if (surfaces != nullptr) surfaces->drop_unused();
     return out;
 }

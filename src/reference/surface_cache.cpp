@@ -10,15 +10,15 @@ ExactMaterial exact_material(const Material& material) {
 ExactMaterial SurfaceCache::of(const std::shared_ptr<const Material>& material) {
     for (Entry& entry : m_entries) {
         if (entry.material != material) continue;
-        entry.used = true;
+        entry.idle = 0;
         return entry.exact;
     }
-    return m_entries.emplace_back(Entry{material, exact_material(*material), true}).exact;
+    return m_entries.emplace_back(Entry{material, exact_material(*material), 0}).exact;
 }
 
-void SurfaceCache::drop_unused() {
-    std::erase_if(m_entries, [](const Entry& entry) { return !entry.used; });
-    for (Entry& entry : m_entries) entry.used = false;
+void SurfaceCache::drop_unused(int frames) {
+    std::erase_if(m_entries, [frames](const Entry& entry) { return entry.idle >= frames; });
+    for (Entry& entry : m_entries) ++entry.idle;
 }
 
 void SurfaceCache::drop_orphans() {

@@ -24,8 +24,8 @@ class SurfaceCache {
   public:
     /// Throws what exact_material throws.
     ExactMaterial of(const std::shared_ptr<const Material>& material);
-    /// Forgets what was not asked for since the last call.
-    void drop_unused();
+    /// Forgets what was not asked for since the last call but `frames` - 1.
+    void drop_unused(int frames = 1);
     /// Forgets materials that nobody else has: none of them can be drawn again.
     void drop_orphans();
 
@@ -33,7 +33,7 @@ class SurfaceCache {
     struct Entry {
         std::shared_ptr<const Material> material;
         ExactMaterial exact;
-        bool used;
+        int idle;  ///< calls of drop_unused since it was asked for
     };
     std::vector<Entry> m_entries;
 };

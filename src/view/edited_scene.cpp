@@ -13,12 +13,6 @@
 namespace burnish::view {
 namespace {
 
-const MaterialEdit* edit_named(const ViewState& state, const std::string& name) {
-    const auto found = std::find_if(state.materials.begin(), state.materials.end(),
-                                    [&](const MaterialEdit& edit) { return edit.name == name; });
-    return found == state.materials.end() ? nullptr : &*found;
-}
-
 void apply_model(const MaterialEdit& edit, Material& material) {
     material.model = edit.model.value_or(material.model);
     material.kd = edit.kd.value_or(material.kd);
@@ -130,7 +124,7 @@ void EditedMaterials::apply(const ViewState& state, Scene& scene,
     for (Object& object : scene.objects) {
         const std::shared_ptr<const Material> loaded = material_of(object);
         if (!loaded) continue;
-        const MaterialEdit* edit = edit_named(state, loaded->name);
+        const MaterialEdit* edit = find_edit(state, loaded->name);
         const auto mipmaps = loaded->program ? std::nullopt : state.mipmaps;
         if (edit == nullptr && !mipmaps) {
             m_kept.erase(loaded.get());
@@ -146,6 +140,34 @@ void EditedMaterials::apply(const ViewState& state, Scene& scene,
         });
         if (!told) errors.insert(errors.end(), kept.errors.begin(), kept.errors.end());
     }
+}
+
+const MaterialEdit* find_edit(const ViewState& state, const std::string& material) {
+    const auto found =
+        std::find_if(state.materials.begin(), state.materials.end(),
+                     [&](const MaterialEdit& edit) { return edit.name == material; });
+    return found == state.materials.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> idle_edits(const ViewState& state, const Scene& loaded) {
+    std::vector<std::string> lines;
+    for (const MaterialEdit& edit : state.materials) {
+        std::shared_ptr<const Material> changed;
+        for (const Object& object : loaded.objects) {
+            const std::shared_ptr<const Material> material = material_of(object);
+            if (material && material->name == edit.name) changed = material;
+        }
+        MaterialEdit text_alone{.name = edit.name};
+        text_alone.combiners = edit.combiners;
+        if (!changed)
+            lines.push_back(fmt::format("material '{}': {} has none of that name", edit.name,
+                                        state.input.string()));
+        else if (changed->program && edit != text_alone)
+            lines.push_back(fmt::format(
+                "material '{}': a program, not a model, expected 'combiners_text' alone",
+                edit.name));
+    }
+    return lines;
 }
 
 Machine machine_for(const ViewState& state, const Machine& machine) {
@@ -184,7 +206,10 @@ ViewState state_of(const Scene& scene, const std::filesystem::path& input) {
     state.input = input;
     state.width = scene.width;
     state.height = scene.height;
-    state.camera = by_vectors(scene.camera, ball_around(scene));
+    const Ball ball = ball_around(scene);
+    state.camera = by_vectors(scene.camera, ball);
+    // A matrix without an inverse has no vectors.
+    if (!has_direction(state.camera)) state.camera = seen_from(Side::front, Camera{}, ball, 1.0F);
     return state;
 }
 

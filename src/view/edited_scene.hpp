@@ -49,6 +49,13 @@ std::shared_ptr<const Material> material_of(const Object& object);
 Scene edited_scene(const Scene& loaded, const ViewState& state, EditedMaterials& materials,
                    std::vector<ProgramError>& errors);
 
+/// Edits of `state` that change nothing, a line each: of a material that `loaded` has not, or of
+/// the model of one that brings a program.
+std::vector<std::string> idle_edits(const ViewState& state, const Scene& loaded);
+
+/// The state's edit of the material with that name; null if nothing was changed of it.
+const MaterialEdit* find_edit(const ViewState& state, const std::string& material);
+
 /// The machine with the state's other wishes: passes where a program needs them.
 Machine machine_for(const ViewState& state, const Machine& machine);
 

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <burnish/files.hpp>
+#include <cstdio>
 
 #include "view/session.hpp"
 #include "view/view.hpp"
@@ -20,6 +23,9 @@ Session first_session(const ViewRequest& request) {
         session.state.width = request.size->x;
         session.state.height = request.size->y;
     }
+    if (request.quiet || !session.wish(false)) return session;
+    for (const std::string& line : session.edit_messages())
+        fmt::print(stderr, "burnish: {}\n", line);
     return session;
 }
 

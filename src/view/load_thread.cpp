@@ -1,7 +1,8 @@
 #include "view/load_thread.hpp"
 
 #include <burnish/error.hpp>
-#include <new>
+
+#include "view/complaint.hpp"
 
 namespace burnish::view {
 
@@ -13,8 +14,8 @@ Loaded loaded(const LoadScene& load, const LoadOrder& order) {
         result.scene = load(order.input);
     } catch (const Error& error) {
         result.error = error.what();
-    } catch (const std::bad_alloc&) {
-        result.error = order.input.string() + ": out of memory";
+    } catch (const std::exception& error) {
+        result.error = order.input.string() + ": " + complaint(error);
     }
     return result;
 }
@@ -27,9 +28,21 @@ LoadThread::~LoadThread() {
     m_thread.join();
 }
 
+void LoadThread::order(LoadOrder order) {
+    m_pending = order;
+    m_orders.put({++m_number, std::move(order)});
+}
+
+std::optional<Loaded> LoadThread::take() {
+    std::optional<Result> result = m_results.take();
+    if (!result || result->number != m_number) return std::nullopt;
+    m_pending.reset();
+    return std::move(result->loaded);
+}
+
 void LoadThread::run() {
-    while (const std::optional<LoadOrder> order = m_orders.wait()) {
-        Loaded result = loaded(m_load, *order);
+    while (const std::optional<Numbered> order = m_orders.wait()) {
+        Result result{order->number, loaded(m_load, order->order)};
         if (m_orders.is_full()) continue;  // nobody waits for it any more
         m_results.put(std::move(result));
         m_ready();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -23,21 +24,34 @@ class LoadThread {
     LoadThread(const LoadThread&) = delete;
     LoadThread& operator=(const LoadThread&) = delete;
 
-    void order(LoadOrder order) { m_orders.put(std::move(order)); }
-    /// What came of the newest order, once.
-    std::optional<Loaded> take() { return m_results.take(); }
+    // One thread gives orders and takes what comes of them.
+    void order(LoadOrder order);
+    /// What came of the newest order, once; never of one before.
+    std::optional<Loaded> take();
+    /// The newest order, until what came of it was taken.
+    [[nodiscard]] const std::optional<LoadOrder>& pending() const { return m_pending; }
 
   private:
+    struct Numbered {
+        std::uint64_t number;
+        LoadOrder order;
+    };
+    struct Result {
+        std::uint64_t number;  ///< of its order
+        Loaded loaded;
+    };
     void run();
 
     LoadScene m_load;
     std::function<void()> m_ready;
-    Mailbox<LoadOrder> m_orders;
-    Mailbox<Loaded> m_results;
+    std::optional<LoadOrder> m_pending;
+    std::uint64_t m_number = 0;  ///< of the newest order
+    Mailbox<Numbered> m_orders;
+    Mailbox<Result> m_results;
     std::thread m_thread;
 };
 
-/// What LoadThread does with an order. Never throws Error or std::bad_alloc: that is in the result.
+/// What LoadThread does with an order. What is thrown is in the result.
 Loaded loaded(const LoadScene& load, const LoadOrder& order);
 
 }  // namespace burnish::view

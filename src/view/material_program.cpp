@@ -6,6 +6,8 @@
 #include <burnish/error.hpp>
 #include <burnish/program_text.hpp>
 
+#include "models/abp_modified.hpp"
+#include "view/complaint.hpp"
 #include "view/edited_scene.hpp"
 
 namespace burnish::view {
@@ -54,17 +56,11 @@ std::string texels_text(const CompiledModel& model) {
     return text;
 }
 
-/// Maps that were made for the talk's model go past the compiler.
-bool has_own_maps(const Material& material) {
-    return material.model == Model::abp_modified && material.tangent_map && !material.mipmaps;
-}
-
 std::string inputs_text(CompiledModels& models, const Scene& scene,
                         const std::shared_ptr<const Material>& material) {
     if (has_own_maps(*material)) return "";
-    const Light light = scene.lights.empty() ? Light{.intensity = 0.0F} : scene.lights.front();
-    const CompiledModel& model = models.get(material, scene.machine.for_programs(),
-                                            light.color * light.intensity, scene.ambient);
+    const auto [light, ambient] = light_of_model(scene, 0);
+    const CompiledModel& model = models.get(material, scene.machine.for_programs(), light, ambient);
     return interpolators_text(model.program) + texels_text(model);
 }
 
@@ -87,8 +83,8 @@ std::vector<MaterialProgram> MaterialPrograms::of(Renderer& renderer, const Scen
             program.text = print_combiners(renderer.program(scene, i).combiners);
             if (anew) inputs = inputs_text(m_models, scene, material);
             program.inputs = inputs;
-        } catch (const Error& error) {
-            program.error = error.what();
+        } catch (const std::exception& error) {
+            program.error = complaint(error);
         }
     }
     if (anew) m_models.drop_unused();

@@ -20,6 +20,13 @@ struct Axes {
     glm::vec3 right, up, back;
 };
 
+/// The direction of `v`, whose square may be no float; upwards where it has none.
+glm::vec3 unit(const glm::vec3& v) {
+    const glm::dvec3 exact(v);
+    const double length = glm::length(exact);
+    return length > 0.0 ? glm::vec3(exact / length) : glm::vec3(0.0F, 1.0F, 0.0F);
+}
+
 /// Some unit vector at right angles to `v`.
 glm::vec3 any_perpendicular(const glm::vec3& v) {
     const glm::vec3 other = std::abs(v.y) < 0.9F * glm::length(v) ? glm::vec3(0.0F, 1.0F, 0.0F)
@@ -28,8 +35,8 @@ glm::vec3 any_perpendicular(const glm::vec3& v) {
 }
 
 Axes axes_of(const Camera& camera) {
-    const glm::vec3 back = glm::normalize(camera.position - camera.focal_point);
-    const glm::vec3 side = glm::cross(camera.view_up, back);
+    const glm::vec3 back = unit(camera.position - camera.focal_point);
+    const glm::vec3 side = glm::cross(unit(camera.view_up), back);
     const float length = glm::length(side);
     const glm::vec3 right = length > 1e-6F ? side / length : any_perpendicular(back);
     return {right, glm::cross(back, right), back};
@@ -73,7 +80,7 @@ Ball ball_around(const Scene& scene) {
     }
     const float radius = 0.5F * glm::length(box.high - box.low);
     if (!std::isfinite(radius) || box.low.x > box.high.x) return {};
-    return {0.5F * (box.low + box.high), std::max(radius, 1e-6F)};
+    return {0.5F * box.low + 0.5F * box.high, std::max(radius, 1e-6F)};
 }
 
 Camera by_vectors(const Camera& camera, const Ball& ball) {
@@ -98,14 +105,14 @@ Camera by_vectors(const Camera& camera, const Ball& ball) {
 }
 
 Camera orbited(Camera camera, float azimuth, float elevation) {
-    const glm::vec3 up = glm::normalize(camera.view_up);
+    const glm::vec3 up = unit(camera.view_up);
     glm::vec3 arm = rotated(camera.position - camera.focal_point, up, -azimuth);
-    const float sine = glm::dot(glm::normalize(arm), up);
+    const float sine = glm::dot(unit(arm), up);
     const double from_pole = dmath::acos(std::clamp(static_cast<double>(sine), -1.0, 1.0));
     const auto height = static_cast<float>(90.0 - from_pole / kDegree);
     const float higher = std::clamp(height + elevation, -89.0F, 89.0F) - height;
     const glm::vec3 side = glm::cross(up, arm);
-    if (glm::length(side) > 1e-6F * glm::length(arm)) arm = rotated(arm, side, -higher);
+    if (glm::length(side) > 1e-6F * glm::length(arm)) arm = rotated(arm, unit(side), -higher);
     camera.position = camera.focal_point + arm;
     return camera;
 }
@@ -121,11 +128,24 @@ Camera panned(Camera camera, float right, float down) {
 }
 
 Camera zoomed(Camera camera, float factor, const Ball& ball) {
-    const glm::vec3 arm = camera.position - camera.focal_point;
-    const float length = glm::length(arm);
-    const float wanted = std::clamp(length / factor, 1e-3F * ball.radius, 1e3F * ball.radius);
-    camera.position = camera.focal_point + arm * (wanted / length);
+    // Squares of what a file says may be more than a float holds.
+    const glm::dvec3 arm = glm::dvec3(camera.position) - glm::dvec3(camera.focal_point);
+    const double length = glm::length(arm);
+    if (length == 0.0) return camera;
+    const auto radius = static_cast<double>(ball.radius);
+    const double wanted =
+        std::clamp(length / static_cast<double>(factor), 1e-3 * radius, 1e3 * radius);
+    camera.position = glm::vec3(glm::dvec3(camera.focal_point) + arm * (wanted / length));
     return camera;
+}
+
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool has_direction(const Camera& camera) {
+    return is_finite(camera.position) && is_finite(camera.focal_point) &&
+           is_finite(camera.view_up) && camera.position != camera.focal_point;
 }
 
 Camera seen_from(Side side, const Camera& camera, const Ball& ball, float aspect) {

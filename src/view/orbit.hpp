@@ -30,6 +30,11 @@ Camera panned(Camera camera, float right, float down);
 /// Nearer by `factor` > 1, away by one below; never closer than a thousandth of the ball.
 Camera zoomed(Camera camera, float factor, const Ball& ball);
 
+/// No coordinate is infinite or not a number.
+bool is_finite(const glm::vec3& v);
+/// Finite, and position and focal point are two.
+bool has_direction(const Camera& camera);
+
 enum class Side { front, right, top, isometric };
 /// From that side, all of the ball in the picture, y up. `aspect` is width / height.
 Camera seen_from(Side side, const Camera& camera, const Ball& ball, float aspect);

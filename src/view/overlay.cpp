@@ -50,6 +50,7 @@ void picture_overlay(const Session& session, const Picture* picture) {
     };
     for (const std::string& message : {session.message, session.wish_message})
         if (!message.empty()) complain(message);
+    for (const std::string& message : session.edit_messages()) complain(message);
     if (picture == nullptr) return;
     for (const PaneReport& pane : picture->panes)
         for (const std::string& message : {pane.error, pane.note})

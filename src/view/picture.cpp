@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <new>
 
 #include "lab/stage_bits.hpp"
 #include "lab/stage_bits_text.hpp"
+#include "view/complaint.hpp"
 #include "view/error_map.hpp"
 
 namespace burnish::view {
@@ -137,7 +137,10 @@ Framebuffer PictureMaker::draw_numbers(const Wish& wish, const Scene& scene, Pic
 }
 
 const Framebuffer& PictureMaker::truth_of(const Wish& wish, Scene scene) {
-    if (m_truth && m_truth_id == wish.id && m_truth->width() == scene.width) return *m_truth;
+    // Equal widths may have other heights: sides are divided and rounded each on its own.
+    if (m_truth && m_truth_id == wish.id && m_truth->width() == scene.width &&
+        m_truth->height() == scene.height)
+        return *m_truth;
     scene.machine = double_precision(scene.machine);
     m_truth_id = 0;  // nobody's, should it be stopped
     m_truth.emplace(scene.width, scene.height, PixelFormat::rgba32f);
@@ -204,8 +207,8 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
     } catch (const Error& error) {
         if (error.code() == ErrorCode::stopped) throw;
         report.error = error.what();
-    } catch (const std::bad_alloc&) {
-        report.error = "out of memory";
+    } catch (const std::exception& error) {
+        report.error = complaint(error);
     }
     if (!report.error.empty()) fill_columns(columns, picture.frame);
 }
@@ -242,8 +245,8 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
         }
         picture.trace =
             std::make_shared<const PixelTrace>(trace_pixel(scene, wish.pixel->x, wish.pixel->y));
-    } catch (const Error& error) {
-        picture.trace_error = error.what();
+    } catch (const std::exception& error) {
+        picture.trace_error = complaint(error);
     }
     return picture;
 }

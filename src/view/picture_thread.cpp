@@ -2,6 +2,8 @@
 
 #include <burnish/error.hpp>
 
+#include "view/complaint.hpp"
+
 namespace burnish::view {
 
 PictureThread::PictureThread(DrawSamples draw, double budget_ms, std::function<void()> ready)
@@ -42,12 +44,25 @@ void PictureThread::refine(const Wish& wish) {
     }
 }
 
+void PictureThread::fail(const Wish& wish, const std::exception& error) {
+    Picture picture(1, 1);
+    picture.id = wish.id;
+    picture.is_last = true;
+    PaneReport& report = picture.panes.emplace_back();
+    report.machine = wish.scene->machine.name;
+    report.error = complaint(error);
+    m_pictures.put(std::move(picture));
+    m_ready();
+}
+
 void PictureThread::run() {
     while (const std::optional<Wish> wish = m_wishes.wait()) {
         try {
             refine(*wish);
         } catch (const Error& error) {
-            if (error.code() != ErrorCode::stopped) throw;
+            if (error.code() != ErrorCode::stopped) fail(*wish, error);
+        } catch (const std::exception& error) {
+            fail(*wish, error);
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <thread>
@@ -31,6 +32,8 @@ class PictureThread {
   private:
     void run();
     void refine(const Wish& wish);
+    /// A picture of one pixel that says why there is none.
+    void fail(const Wish& wish, const std::exception& error);
     /// The picture that is being drawn is not wanted. Any thread calls.
     [[nodiscard]] bool is_unwanted() const;
 

@@ -62,9 +62,13 @@ void follow_cursor(const std::string& text, int cursor, float top) {
         ImGui::SetScrollY(y + 3.0F * height - ImGui::GetWindowHeight());
 }
 
-/// A text with the numbers of its lines, as high as the panel has room. True where a hand changed
-/// it.
-bool edit_text(const Session& session, const std::string& material, std::string& text) {
+struct TextField {
+    bool changed = false;  ///< by a hand
+    bool active = false;   ///< has the keys: it shows a text of its own, not the one it is given
+};
+
+/// A text with the numbers of its lines, as high as the panel has room.
+TextField edit_text(const Session& session, const std::string& material, std::string& text) {
     constexpr float kFewestLines = 8.0F;
     constexpr float kLinesBelow = 6.0F;  // the button, errors, what is folded
     const float line = ImGui::GetTextLineHeight();
@@ -72,7 +76,7 @@ bool edit_text(const Session& session, const std::string& material, std::string&
         line * static_cast<float>(std::count(text.begin(), text.end(), '\n') + 2) + 8.0F;
     const float room =
         std::max(ImGui::GetContentRegionAvail().y - kLinesBelow * line, kFewestLines * line);
-    bool changed = false;
+    TextField field;
     if (ImGui::BeginChild("text", ImVec2(0.0F, std::min(whole, room)))) {
         line_numbers(text, session.program_errors, material);
         ImGui::SameLine();
@@ -82,12 +86,14 @@ bool edit_text(const Session& session, const std::string& material, std::string&
             return 0;
         };
         const float top = ImGui::GetCursorPosY();
-        changed = ImGui::InputTextMultiline("##program", &text, ImVec2(-1.0F, whole),
-                                            ImGuiInputTextFlags_CallbackAlways, tell, &cursor);
+        field.changed =
+            ImGui::InputTextMultiline("##program", &text, ImVec2(-1.0F, whole),
+                                      ImGuiInputTextFlags_CallbackAlways, tell, &cursor);
+        field.active = ImGui::IsItemActive();
         follow_cursor(text, cursor, top);
     }
     ImGui::EndChild();
-    return changed;
+    return field;
 }
 
 void edit_pipeline(Session& session, const Material& material) {
@@ -100,7 +106,8 @@ void edit_pipeline(Session& session, const Material& material) {
         ImGui::TextWrapped("%s", error.what());
         return;
     }
-    if (edit_text(session, material.name, text)) session.edit_of(material.name).combiners = text;
+    if (edit_text(session, material.name, text).changed)
+        session.edit_of(material.name).combiners = text;
     if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
     show_errors(session, material.name);
 }
@@ -129,12 +136,20 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
         ImGui::TextWrapped("%s", own == nullptr ? "..." : own->error.c_str());
         return;
     }
-    std::string text = is_edited ? *edit->combiners : own->text;
-    if (edit_text(session, material.name, text)) {
+    std::optional<Session::ProgramInHand>& in_hand = session.program_in_hand;
+    const bool was_in_hand = in_hand && in_hand->material == material.name;
+    std::string begun = was_in_hand ? in_hand->own : own != nullptr ? own->text : "";
+    std::string text = is_edited ? *edit->combiners : begun;
+    const TextField field = edit_text(session, material.name, text);
+    if (field.changed) {
         MaterialEdit& changed = session.edit_of(material.name);
-        if (!changed.combiners) changed.compiled = own->text;
+        if (!changed.combiners) changed.compiled = begun;
         changed.combiners = text;
     }
+    if (field.active && !is_edited)
+        in_hand = {material.name, std::move(begun)};
+    else if (was_in_hand)
+        in_hand.reset();
     if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
     show_errors(session, material.name);
     if (own == nullptr) return;

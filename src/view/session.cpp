@@ -1,5 +1,7 @@
 #include "view/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <burnish/error.hpp>
@@ -54,25 +56,29 @@ void Session::take(Loaded loaded) {
     }
 }
 
+void Session::move_to(const Camera& camera) {
+    if (has_direction(camera)) state.camera = camera;
+}
+
 void Session::reset_camera() {
-    state.camera = by_vectors(m_loaded.camera, m_ball);
+    state.camera = state_of(m_loaded, state.input).camera;
     state.light.reset();
 }
 
 void Session::look_from(Side side) {
-    state.camera = seen_from(side, state.camera, m_ball, aspect());
+    move_to(seen_from(side, state.camera, m_ball, aspect()));
 }
 
 void Session::orbit(float right, float down) {
-    state.camera = orbited(state.camera, kOrbitDegrees * right, kOrbitDegrees * down);
+    move_to(orbited(state.camera, kOrbitDegrees * right, kOrbitDegrees * down));
 }
 
 void Session::pan(float right, float down) {
-    state.camera = panned(state.camera, right, down);
+    move_to(panned(state.camera, right, down));
 }
 
 void Session::zoom(float factor) {
-    state.camera = zoomed(state.camera, factor, m_ball);
+    move_to(zoomed(state.camera, factor, m_ball));
 }
 
 void Session::turn_light(float right, float down) {
@@ -84,8 +90,9 @@ void Session::turn_light(float right, float down) {
         towards = first.position_w == 0.0F ? first.position : first.position - m_ball.centre;
     }
     if (towards == glm::vec3(0.0F)) towards.z = 1.0F;
-    state.light = turned_light(glm::normalize(towards), state.camera, kOrbitDegrees * right,
-                               kOrbitDegrees * down);
+    const glm::vec3 turned = turned_light(glm::normalize(towards), state.camera,
+                                          kOrbitDegrees * right, kOrbitDegrees * down);
+    if (is_finite(turned)) state.light = turned;
 }
 
 std::optional<Wish> Session::wish(bool moving) {
@@ -121,17 +128,27 @@ std::optional<Wish> Session::wish(bool moving) {
     return wish;
 }
 
+std::vector<std::string> Session::edit_messages() const {
+    std::vector<std::string> lines = idle_edits(state, m_loaded);
+    if (shows_programs) return lines;
+    const std::string* last = nullptr;
+    for (const ProgramError& error : program_errors) {
+        if (last == nullptr || *last != error.material)
+            lines.push_back(fmt::format("material '{}', its text, line {}, column {}: {}",
+                                        error.material, error.line, error.column, error.message));
+        last = &error.material;
+    }
+    return lines;
+}
+
 MaterialEdit& Session::edit_of(const std::string& material) {
-    for (MaterialEdit& edit : state.materials)
-        if (edit.name == material) return edit;
+    if (const MaterialEdit* edit = find_edit(material))
+        return state.materials[static_cast<std::size_t>(edit - state.materials.data())];
     return state.materials.emplace_back(MaterialEdit{.name = material});
 }
 
 const MaterialEdit* Session::find_edit(const std::string& material) const {
-    const auto found =
-        std::find_if(state.materials.begin(), state.materials.end(),
-                     [&](const MaterialEdit& edit) { return edit.name == material; });
-    return found == state.materials.end() ? nullptr : &*found;
+    return view::find_edit(state, material);
 }
 
 void Session::revert_program(const std::string& material) {

@@ -5,6 +5,7 @@
 #include <burnish/view_state.hpp>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,15 @@ class Session {
     std::string wish_message;     ///< what went wrong with the last wish, likewise
     bool shows_programs = false;  ///< wishes ask for the programs of models
     std::vector<ProgramError> program_errors;  ///< of the last wish
+    /// A model's program that a hand is about to edit: its field keeps the text that it began with,
+    /// whatever the model is compiled to since.
+    struct ProgramInHand {
+        std::string material, own;
+    };
+    std::optional<ProgramInHand> program_in_hand;
+    /// What is wrong with what was changed of materials, as of the last wish, a line for each of
+    /// them; of programs only while no panel shows it.
+    [[nodiscard]] std::vector<std::string> edit_messages() const;
     [[nodiscard]] const Scene& loaded() const { return m_loaded; }
     [[nodiscard]] const Ball& ball() const { return m_ball; }
     /// Materials of the scene, each name once, in the order of the objects. Meshes without one
@@ -85,6 +95,8 @@ class Session {
     [[nodiscard]] float aspect() const;
 
   private:
+    /// Stays where it is where floats do not reach: one that is no number equals none.
+    void move_to(const Camera& camera);
     void show(Scene scene, const std::filesystem::path& input);
     void show_as_it_is(Scene scene, const std::filesystem::path& input);
 

@@ -23,7 +23,8 @@ struct ViewRequest {
     RendererOptions renderer;          ///< threads and instruction set to begin with
     std::filesystem::path load_state;  ///< shown first; empty: the input as it is
     std::filesystem::path save_state;  ///< written when the window closes; empty: nowhere
-    bool quiet = false;                ///< names of screenshots are not printed
+    bool quiet = false;                ///< names of screenshots are not printed, nor what is
+                                       ///< wrong with a state's materials
     bool report = false;  ///< a line on standard output for every picture that came to rest, and
                           ///< the times of all pictures at the end
 };

@@ -99,7 +99,8 @@ bool Viewer::is_moving() const {
 }
 
 bool Viewer::is_at_rest() const {
-    return m_picture && m_picture->is_last && m_picture->id == m_wish && !m_order && !is_moving();
+    return m_picture && m_picture->is_last && m_picture->id == m_wish && !m_loads.pending() &&
+           !is_moving();
 }
 
 std::optional<std::size_t> Viewer::line_at(int x) const {
@@ -273,6 +274,8 @@ void Viewer::wait_for_events() {
 }
 
 void Viewer::look_at_files() {
+    // A change is not forgotten: it is seen when what is being read is there, or cannot be.
+    if (m_loads.pending()) return;
     const double now = now_ms();
     if (now - m_looked_ms < kWatchMs) return;
     m_looked_ms = now;
@@ -281,27 +284,24 @@ void Viewer::look_at_files() {
 
 void Viewer::order(LoadOrder order) {
     m_window.set_title(fmt::format("burnish: reading {}", order.input.filename().string()));
-    m_order = order;
     m_loads.order(std::move(order));
 }
 
 void Viewer::read_again() {
     const LoadOrder again{m_session.state.input, LoadOrder::Purpose::again};
-    order(m_order.value_or(again));
+    order(m_loads.pending().value_or(again));
 }
 
 void Viewer::step_file(int direction) {
-    const auto next = neighbour(m_order ? m_order->input : m_session.state.input, direction);
+    const std::optional<LoadOrder>& pending = m_loads.pending();
+    const auto next = neighbour(pending ? pending->input : m_session.state.input, direction);
     if (next) order({*next, LoadOrder::Purpose::step});
 }
 
 void Viewer::take_loaded() {
     std::optional<Loaded> loaded = m_loads.take();
     if (!loaded) return;
-    if (loaded->order == m_order) {
-        m_order.reset();
-        m_window.set_title(kTitle);
-    }
+    m_window.set_title(kTitle);
     const std::filesystem::path input = loaded->order.input;
     FileWatch files = std::move(loaded->files);
     m_session.take(std::move(*loaded));

@@ -70,12 +70,11 @@ class Viewer {
         friend bool operator==(const Asked&, const Asked&) = default;
     };
 
-    std::uint64_t m_wish = 0;          ///< number of the last wish
-    std::optional<Asked> m_asked;      ///< what the last wish was about; nothing: ask again
-    std::optional<LoadOrder> m_order;  ///< the last one, while it is being read
-    double m_looked_ms = 0.0;          ///< when files were looked at
-    int m_draws = 0;                   ///< frames until the panels have come to rest
-    int m_focus_draws = 0;             ///< frames until they know where a click's keys go
+    std::uint64_t m_wish = 0;      ///< number of the last wish
+    std::optional<Asked> m_asked;  ///< what the last wish was about; nothing: ask again
+    double m_looked_ms = 0.0;      ///< when files were looked at
+    int m_draws = 0;               ///< frames until the panels have come to rest
+    int m_focus_draws = 0;         ///< frames until they know where a click's keys go
     bool m_panels = true;
     bool m_running = true;
     bool m_wants_shot = false;  ///< as soon as the picture is at rest
