@@ -32,8 +32,8 @@ struct VulkanImage {
 class VulkanDevice {
   public:
     /// Sets the environment that the driver and the loader read, but not the place of SwiftShader
-    /// where the user did. `threads` is for lavapipe; SwiftShader has a thread for each core. Throws std::runtime_error where the
-    /// driver is not to be had.
+    /// where the user did. `threads` is for lavapipe; SwiftShader has a thread for each core.
+    /// Throws std::runtime_error where the driver is not to be had.
     VulkanDevice(VulkanDriver driver, int threads);
 
     /// The renderer's version.
