@@ -128,6 +128,8 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
         row[k] = z0 + to_float(lane_x() + I32(x + k * kLanes32)) * zx;
     const BlockLanes covered(pixels);
     float* const depth = ctx.depth + block * kBlockPixels;
+    std::int32_t* id = nullptr;
+    if constexpr (HasIds) id = reinterpret_cast<std::int32_t*>(ctx.id) + block * kBlockPixels;
     const I32 new_id(static_cast<std::int32_t>(ctx.first_id) + triangle);
     Mask32 any(false);
     // Where four vectors make a block the mispredicted end of the loop costs more than they do.
@@ -146,9 +148,7 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
         if (Depth::writes(ctx.rule)) store(depth + at, ::xsimd::select(as_float(write), z, old));
         if constexpr (HasIds) {
             any = any | write;
-            std::int32_t* const id =
-                reinterpret_cast<std::int32_t*>(ctx.id) + block * kBlockPixels + at;
-            store(id, ::xsimd::select(write, new_id, load(id)));
+            store(id + at, ::xsimd::select(write, new_id, load(id + at)));
         }
     }
     if constexpr (HasIds)
