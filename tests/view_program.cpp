@@ -285,11 +285,15 @@ TEST_F(ViewProgram, AMeshWithoutAMaterialHasTheDefaultOnesControls) {
     ASSERT_EQ(session.materials().size(), 1U);
     const std::string name = session.materials()[0]->name;
     session.edit_of(name).kd = glm::vec3(0.5F);
-    for (const Object& object : session.wish(false)->scene->objects)
+    const std::optional<Wish> brighter = session.wish(false);
+    ASSERT_TRUE(brighter);
+    for (const Object& object : brighter->scene->objects)
         EXPECT_EQ(object.material->kd, glm::vec3(0.5F));
     session.forget_edit(name);
     edit(session, name, "out.rgb = ", kDiffuse);
-    for (const Object& object : session.wish(false)->scene->objects) EXPECT_TRUE(object.edited);
+    const std::optional<Wish> edited = session.wish(false);
+    ASSERT_TRUE(edited);
+    for (const Object& object : edited->scene->objects) EXPECT_TRUE(object.edited);
 }
 
 TEST_F(ViewProgram, AMessageGoesWithTheNextWishThatSucceeds) {
