@@ -61,56 +61,102 @@ void make_orthonormal(Vector3& t, Vector3& b, Vector3& n) {
     b = {c.x * side, c.y * side, c.z * side};
 }
 
+/// Vectors of fragments that are lit together, step by step: a root and a division that wait for
+/// another root and division are longer than what a CPU looks ahead, those of several vectors are
+/// not. With 32 registers four of them stay there; 16 do not hold them anyway.
+inline constexpr int kLitVectors = kLanes32 == 16 ? 4 : 8;
+static_assert(kPacketSize % (kLitVectors * kLanes32) == 0);
+
+/// f(0) .. f(kLitVectors - 1) without a loop, so that arrays of vectors may be registers.
+template <class F, int... K>
+[[gnu::always_inline]] inline void for_lit_vectors(F f, std::integer_sequence<int, K...> /*n*/) {
+    (f(K), ...);
+}
+template <class F>
+[[gnu::always_inline]] inline void for_lit_vectors(F f) {
+    for_lit_vectors(f, std::make_integer_sequence<int, kLitVectors>());
+}
+
+/// Three planes of attributes as vectors.
+struct LitPlanes {
+    LitPlanes(float* planes, int number)
+        : x(planes + number * kAttributeStride), y(x + kAttributeStride), z(y + kAttributeStride) {}
+    [[nodiscard]] Vector3 at(int i) const { return {load(x + i), load(y + i), load(z + i)}; }
+    void set(int i, F32 to_x, F32 to_y, F32 to_z) const {
+        store(x + i, to_x);
+        store(y + i, to_y);
+        store(z + i, to_z);
+    }
+    float *x, *y, *z;
+};
+
 /// A direction of light is normalised once.
-template <bool IsDirection>
+template <bool IsDirection, bool Orthonormal>
 void lighting(Packet& packet, const LightingCtx& ctx) {
     const Vector3 light{F32(ctx.light[0]), F32(ctx.light[1]), F32(ctx.light[2])};
     const Vector3 eye{F32(ctx.eye[0]), F32(ctx.eye[1]), F32(ctx.eye[2])};
     const Vector3 direction = normalised(light);
     const F32 light_w(ctx.light_w), eye_w(ctx.eye_w), half(0.5F), zero(0.0F);
     float* const planes = packet.attributes;
-    const int first = ctx.frame, n = group_count(packet);
-    for (int i = 0; i < n; i += kLanes32) {
-        const auto vector = [&](int k) {
-            const float* p = planes + (first + 3 * k) * kAttributeStride + i;
-            return Vector3{load(p), load(p + kAttributeStride), load(p + 2 * kAttributeStride)};
+    const LitPlanes tangents(planes, ctx.frame), bitangents(planes, ctx.frame + 3),
+        normals(planes, ctx.frame + 6), positions(planes, ctx.frame + 9);
+    const bool writes_h = ctx.half_vector >= 0, writes_l = ctx.light_vector >= 0,
+               writes_v = ctx.view_vector >= 0, writes_h_dot_l = ctx.h_dot_l >= 0,
+               writes_n_dot_l = ctx.n_dot_l >= 0, raw_half = ctx.raw_half != 0;
+    const auto wanted = [](int number) { return number < 0 ? 0 : number; };
+    const LitPlanes to_h(planes, wanted(ctx.half_vector)), to_l(planes, wanted(ctx.light_vector)),
+        to_v(planes, wanted(ctx.view_vector));
+    float* const to_h_dot_l = planes + wanted(ctx.h_dot_l) * kAttributeStride;
+    float* const to_n_dot_l = planes + wanted(ctx.n_dot_l) * kAttributeStride;
+    const auto towards =
+        [](const Vector3& to, F32 w, const Vector3& from) __attribute__((always_inline)) {
+        return normalised({to.x - from.x * w, to.y - from.y * w, to.z - from.z * w});
+    };
+    const int n = group_count(packet);
+    for (int first = 0; first < n; first += kLitVectors * kLanes32) {
+        Vector3 l[IsDirection ? 1 : kLitVectors], v[kLitVectors], h[kLitVectors];
+        const auto light_vector = [&](int k) __attribute__((always_inline)) {
+            return IsDirection ? direction : l[k];
         };
-        Vector3 t = vector(0), b = vector(1), normal = vector(2);
-        const Vector3 position = vector(3);
-        if (ctx.orthonormal != 0) make_orthonormal(t, b, normal);
-        Vector3 l = direction;
-        if constexpr (!IsDirection) {
-            l = normalised({light.x - position.x * light_w, light.y - position.y * light_w,
-                            light.z - position.z * light_w});
+        for_lit_vectors([&](int k) __attribute__((always_inline)) {
+            const Vector3 position = positions.at(first + k * kLanes32);
+            if constexpr (!IsDirection) l[k] = towards(light, light_w, position);
+            v[k] = towards(eye, eye_w, position);
+        });
+        if (writes_h || writes_h_dot_l) {
+            for_lit_vectors([&](int k) __attribute__((always_inline)) {
+                const Vector3 to_light = light_vector(k);
+                const Vector3 sum{to_light.x + v[k].x, to_light.y + v[k].y, to_light.z + v[k].z};
+                h[k] =
+                    raw_half ? Vector3{sum.x * half, sum.y * half, sum.z * half} : normalised(sum);
+            });
         }
-        const Vector3 v = normalised(
-            {eye.x - position.x * eye_w, eye.y - position.y * eye_w, eye.z - position.z * eye_w});
-        const auto write = [&](int plane, const Vector3& x) {
-            if (plane < 0) return;
-            float* p = planes + plane * kAttributeStride + i;
-            store(p, dot(t, x) * half + half);
-            store(p + kAttributeStride, dot(b, x) * half + half);
-            store(p + 2 * kAttributeStride, dot(normal, x) * half + half);
-        };
-        if (ctx.half_vector >= 0 || ctx.h_dot_l >= 0) {
-            const Vector3 sum{l.x + v.x, l.y + v.y, l.z + v.z};
-            const Vector3 h = ctx.raw_half != 0 ? Vector3{sum.x * half, sum.y * half, sum.z * half}
-                                                : normalised(sum);
-            write(ctx.half_vector, h);
-            if (ctx.h_dot_l >= 0) {
-                store(planes + ctx.h_dot_l * kAttributeStride + i, max(dot(h, l), zero));
-            }
-        }
-        write(ctx.light_vector, l);
-        write(ctx.view_vector, v);
-        if (ctx.n_dot_l >= 0) {
-            store(planes + ctx.n_dot_l * kAttributeStride + i, max(dot(normal, l), zero));
-        }
+        for_lit_vectors([&](int k) __attribute__((always_inline)) {
+            const int i = first + k * kLanes32;
+            if (i >= n) return;
+            Vector3 t = tangents.at(i), b = bitangents.at(i), normal = normals.at(i);
+            if constexpr (Orthonormal) make_orthonormal(t, b, normal);
+            const auto write = [&](const LitPlanes& to, const Vector3& x)
+                __attribute__((always_inline)) {
+                to.set(i, dot(t, x) * half + half, dot(b, x) * half + half,
+                       dot(normal, x) * half + half);
+            };
+            if (writes_h) write(to_h, h[k]);
+            if (writes_l) write(to_l, light_vector(k));
+            if (writes_v) write(to_v, v[k]);
+            if (writes_h_dot_l) store(to_h_dot_l + i, max(dot(h[k], light_vector(k)), zero));
+            if (writes_n_dot_l) store(to_n_dot_l + i, max(dot(normal, light_vector(k)), zero));
+        });
     }
 }
 
 void lighting(Packet& packet, const LightingCtx& ctx) noexcept {
-    ctx.light_w == 0.0F ? lighting<true>(packet, ctx) : lighting<false>(packet, ctx);
+    const bool is_direction = ctx.light_w == 0.0F;
+    if (ctx.orthonormal != 0) {
+        is_direction ? lighting<true, true>(packet, ctx) : lighting<false, true>(packet, ctx);
+    } else {
+        is_direction ? lighting<true, false>(packet, ctx) : lighting<false, false>(packet, ctx);
+    }
 }
 
 void encode(Packet& packet, const EncodeCtx& ctx, float one_value) {
