@@ -17,16 +17,18 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
     };
     // Rows are loaded once for all of them, and what x adds is the same in a column.
     const auto vectors = [&](int first, const auto& pixel, const auto& row) {
-        const auto evaluate = [&](int equation, F32(&value)[kColumnVectors]) {
+        constexpr int kCount = std::extent_v<std::remove_cvref_t<decltype(pixel)>>;
+        constexpr bool kIsColumn = kHasColumns && kCount == kColumnVectors;
+        const auto evaluate = [&](int equation, F32(&value)[kCount]) {
             const int k = 3 * equation;
             const F32 origin = row(k), right = row(k + 1), down = row(k + 2);
             const F32 beginning = origin + right * pixel[0].x;
-            for (int v = 0; v < kColumnVectors; ++v) {
-                const F32 at_x = kHasColumns ? beginning : origin + right * pixel[v].x;
+            for (int v = 0; v < kCount; ++v) {
+                const F32 at_x = kIsColumn ? beginning : origin + right * pixel[v].x;
                 value[v] = at_x + down * pixel[v].y;
             }
         };
-        F32 w[kColumnVectors], value[kColumnVectors];
+        F32 w[kCount], value[kCount];
         const float level_w = row.level_w();
         if (level_w != 0.0F) {
             for (F32& each : w) each = F32(level_w);
@@ -37,7 +39,7 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
         float* const out = packet.attributes + first;
         for (int k = 0; k < attribute_count; ++k) {
             evaluate(k + 1, value);
-            for (int v = 0; v < kColumnVectors; ++v)
+            for (int v = 0; v < kCount; ++v)
                 store(out + k * kAttributeStride + v * kLanes32, value[v] * w[v]);
         }
     };

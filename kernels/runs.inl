@@ -4,10 +4,13 @@ inline bool are_consecutive(const std::uint16_t* pixels) {
     return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.of16));
 }
 
-/// Vectors of one run that share its rows. Where a vector has whole rows of a block, those that lie
-/// below each other, in the same columns of one block.
+/// Vectors of one run that are taken together, so that rows of equations are loaded once. Where a
+/// vector has whole rows of a block these must lie below each other, in the same columns of one
+/// block.
 inline constexpr int kColumnVectors = 4;
 inline constexpr bool kHasColumns = kLanes32 >= kBlockSize;
+/// Vectors of one run that are taken together where they are no column.
+inline constexpr int kRunVectors = kHasColumns ? 16 / kLanes32 : 1;
 inline bool are_below_each_other(const std::uint16_t* pixels) {
     constexpr int kFragments = kColumnVectors * kLanes32;
     return pixels[0] % kBlockPixels <= kBlockPixels - kFragments &&
@@ -57,7 +60,7 @@ class FragmentRuns {
     }
 
     /// The same, but g(first fragment, pixel positions of each, row) for kColumnVectors of one run,
-    /// which have one x where kHasColumns.
+    /// which have one x where kHasColumns, and for kRunVectors others.
     template <class F, class G>
     void for_each_vector(F&& f, G&& g) const {
         constexpr int kFragments = kColumnVectors * kLanes32;
@@ -67,6 +70,18 @@ class FragmentRuns {
             const bool together = i + kFragments <= m_end && m_run_of[i + kFragments - 1] == run &&
                                   (!kHasColumns || are_below_each_other(pixels));
             if (!together) {
+                if constexpr (kRunVectors > 1) {
+                    constexpr int kPart = kRunVectors * kLanes32;
+                    if (i + kPart <= m_end && m_run_of[i + kPart - 1] == run) {
+                        PixelPositions pixel[kRunVectors];
+                        for (int v = 0; v < kRunVectors; ++v)
+                            pixel[v] = positions(pixels + v * kLanes32, I32(m_offset_x[run]),
+                                                 I32(m_offset_y[run]));
+                        g(i, pixel, RowsOfOneRun{m_ctx.equations + run});
+                        i += kPart;
+                        continue;
+                    }
+                }
                 call(i, f);
                 i += kLanes32;
                 continue;
