@@ -5,7 +5,8 @@ struct AxisAddress {
 };
 
 /// `whole` is the coordinate of the far side, `steps` how many 1/256 texels 1 is. Coordinates that
-/// repeat are within 0 .. 1 or NaN, so that linear filtering never gets beyond the last texel.
+/// repeat are within 0 .. 1 or NaN, so that linear filtering never gets beyond the last texel; of a
+/// NaN it makes -2^31 - 128 (x86) or -128 (AArch64), which both are the last texel's half, as of 0.
 template <AddressMode Mode, bool Linear>
 inline AxisAddress axis_address(F32 coordinate, std::int32_t size, F32 whole, F32 steps) {
     const I32 last(size - 1), zero(0), half(Linear ? 128 : 0), bits(Linear ? 255 : 0);
@@ -19,7 +20,8 @@ inline AxisAddress axis_address(F32 coordinate, std::int32_t size, F32 whole, F3
         weight = ::xsimd::select(texel > last, zero, weight);
         return {min(max(texel, before), behind), weight};
     } else if constexpr (Mode == AddressMode::repeat) {
-        const F32 f = max(coordinate - ::xsimd::floor(coordinate), nought);
+        F32 f = coordinate - ::xsimd::floor(coordinate);
+        if constexpr (!Linear) f = max(f, nought);
         const I32 fixed = truncate(f * steps) - half, texel = fixed >> 8;  // -1 or 0 .. size
         if constexpr (Linear) return {min_unsigned(texel, last), fixed & bits};
         return {::xsimd::select(texel > last, zero, texel), zero};

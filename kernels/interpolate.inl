@@ -15,29 +15,35 @@ void attributes(Packet& packet, const AttributesCtx& ctx) noexcept {
             store(out + k * kAttributeStride, at_pixel(k + 1) * w);
         }
     };
-    // What x adds is the same in all of them.
-    const auto column = [&](int first, const auto& pixel, const auto& row) {
-        const auto begin = [&](int equation) {
+    // Rows are loaded once for all of them, and what x adds is the same in a column.
+    const auto vectors = [&](int first, const auto& pixel, const auto& row) {
+        constexpr int kCount = std::extent_v<std::remove_cvref_t<decltype(pixel)>>;
+        constexpr bool kIsColumn = kHasColumns && kCount == kColumnVectors;
+        const auto evaluate = [&](int equation, F32(&value)[kCount]) {
             const int k = 3 * equation;
-            return row(k) + row(k + 1) * pixel[0].x;
+            const F32 origin = row(k), right = row(k + 1), down = row(k + 2);
+            const F32 beginning = origin + right * pixel[0].x;
+            for (int v = 0; v < kCount; ++v) {
+                const F32 at_x = kIsColumn ? beginning : origin + right * pixel[v].x;
+                value[v] = at_x + down * pixel[v].y;
+            }
         };
+        F32 w[kCount], value[kCount];
         const float level_w = row.level_w();
-        F32 w[kColumnVectors];
-        const F32 first_w = begin(0), down_w = row(2);
-        for (int v = 0; v < kColumnVectors; ++v) {
-            w[v] =
-                level_w != 0.0F ? F32(level_w) : divide(F32(1.0F), first_w + down_w * pixel[v].y);
+        if (level_w != 0.0F) {
+            for (F32& each : w) each = F32(level_w);
+        } else {
+            evaluate(0, w);
+            for (F32& each : w) each = divide(F32(1.0F), each);
         }
         float* const out = packet.attributes + first;
         for (int k = 0; k < attribute_count; ++k) {
-            const F32 beginning = begin(k + 1), down = row(3 * k + 5);
-            for (int v = 0; v < kColumnVectors; ++v) {
-                store(out + k * kAttributeStride + v * kLanes32,
-                      (beginning + down * pixel[v].y) * w[v]);
-            }
+            evaluate(k + 1, value);
+            for (int v = 0; v < kCount; ++v)
+                store(out + k * kAttributeStride + v * kLanes32, value[v] * w[v]);
         }
     };
-    runs.for_each_vector(vector, column);
+    runs.for_each_vector(vector, vectors);
 }
 
 struct Vector3 {

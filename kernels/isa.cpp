@@ -2,6 +2,7 @@
 ///   BURNISH_ISA    name of the namespace and of the table, e.g. avx2
 ///   BURNISH_ARCH   xsimd's architecture, e.g. avx2
 ///   BURNISH_TABLE  the one function that leaves this file, e.g. table_avx2
+#include <type_traits>
 #include <utility>
 
 #include "kernels/kernel_table.hpp"

@@ -4,8 +4,13 @@ inline bool are_consecutive(const std::uint16_t* pixels) {
     return ::xsimd::all(load(p) == I16(p[0]) + load(kLaneNumbers.of16));
 }
 
-/// Vectors of fragments that lie below each other: the same columns of one block.
+/// Vectors of one run that are taken together, so that rows of equations are loaded once. Where a
+/// vector has whole rows of a block these must lie below each other, in the same columns of one
+/// block.
 inline constexpr int kColumnVectors = 4;
+inline constexpr bool kHasColumns = kLanes32 >= kBlockSize;
+/// Vectors of one run that are taken together where they are no column.
+inline constexpr int kRunVectors = kHasColumns ? 16 / kLanes32 : 1;
 inline bool are_below_each_other(const std::uint16_t* pixels) {
     constexpr int kFragments = kColumnVectors * kLanes32;
     return pixels[0] % kBlockPixels <= kBlockPixels - kFragments &&
@@ -54,27 +59,45 @@ class FragmentRuns {
         for (int i = 0; i < m_end; i += kLanes32) call(i, f);
     }
 
-    /// The same, but g(first fragment, pixel positions of each, row) for kColumnVectors of one run
-    /// that lie below each other.
+    /// The same, but g(first fragment, pixel positions of each, row) for kColumnVectors of one run,
+    /// which have one x where kHasColumns, and for kRunVectors others.
     template <class F, class G>
     void for_each_vector(F&& f, G&& g) const {
-        if constexpr (kLanes32 < kBlockSize) return for_each_vector(f);  // parts of rows
         constexpr int kFragments = kColumnVectors * kLanes32;
         for (int i = 0; i < m_end;) {
             const int run = m_run_of[i];
-            const bool is_column = i + kFragments <= m_end && m_run_of[i + kFragments - 1] == run &&
-                                   are_below_each_other(m_packet.pixels + i);
-            if (!is_column) {
+            const std::uint16_t* const pixels = m_packet.pixels + i;
+            const bool together = i + kFragments <= m_end && m_run_of[i + kFragments - 1] == run &&
+                                  (!kHasColumns || are_below_each_other(pixels));
+            if (!together) {
+                if constexpr (kRunVectors > 1) {
+                    constexpr int kPart = kRunVectors * kLanes32;
+                    if (i + kPart <= m_end && m_run_of[i + kPart - 1] == run) {
+                        PixelPositions pixel[kRunVectors];
+                        for (int v = 0; v < kRunVectors; ++v)
+                            pixel[v] = positions(pixels + v * kLanes32, I32(m_offset_x[run]),
+                                                 I32(m_offset_y[run]));
+                        g(i, pixel, RowsOfOneRun{m_ctx.equations + run});
+                        i += kPart;
+                        continue;
+                    }
+                }
                 call(i, f);
                 i += kLanes32;
                 continue;
             }
             PixelPositions pixel[kColumnVectors];
-            pixel[0] = positions(m_packet.pixels + i, I32(m_offset_x[run]), I32(m_offset_y[run]));
-            // Whole numbers below 2^24: exact, however they are added.
-            for (int v = 1; v < kColumnVectors; ++v)
-                pixel[v] = {pixel[0].x,
-                            pixel[0].y + F32(static_cast<float>(v * kLanes32 / kBlockSize))};
+            const I32 offset_x(m_offset_x[run]), offset_y(m_offset_y[run]);
+            pixel[0] = positions(pixels, offset_x, offset_y);
+            for (int v = 1; v < kColumnVectors; ++v) {
+                if constexpr (kHasColumns) {
+                    // Whole numbers below 2^24: exact, however they are added.
+                    const F32 down(static_cast<float>(v * kLanes32 / kBlockSize));
+                    pixel[v] = {pixel[0].x, pixel[0].y + down};
+                } else {
+                    pixel[v] = positions(pixels + v * kLanes32, offset_x, offset_y);
+                }
+            }
             g(i, pixel, RowsOfOneRun{m_ctx.equations + run});
             i += kFragments;
         }

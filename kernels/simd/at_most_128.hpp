@@ -7,6 +7,10 @@
 namespace burnish::BURNISH_ISA {
 namespace {
 
+inline void store_narrowed(std::int16_t* p, I32 first, I32 second) {
+    store(p, narrow(first, second));
+}
+
 /// Bits from the first on, and up to the last, which is one less than the index.
 struct RowBits {
     std::uint64_t from[65], until[65];

@@ -44,10 +44,6 @@ inline std::uint16_t* append_lanes(std::uint16_t* out, int first, Mask32 which) 
     return out + __builtin_popcount(lanes);
 }
 
-inline void store_narrowed(std::int16_t* p, I32 first, I32 second) {
-    store_narrowed(p, first);
-    store_narrowed(p + kLanes32, second);
-}
 template <int Rows>
 [[gnu::always_inline]] inline void load_pairs(std::uintptr_t base,
                                               const std::ptrdiff_t (&row)[Rows],

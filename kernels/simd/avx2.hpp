@@ -87,6 +87,9 @@ inline void store_narrowed(std::int16_t* p, I32 v) {
     const __m256i pairs = _mm256_permute4x64_epi64(_mm256_packs_epi32(v, v), 0x08);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(pairs));
 }
+inline void store_narrowed(std::int16_t* p, I32 first, I32 second) {
+    store(p, I16(_mm256_permute4x64_epi64(narrow(first, second), 0xd8)));
+}
 template <int kApart = 8>
 inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const auto pair = [&](int k) {
