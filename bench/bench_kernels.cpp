@@ -917,6 +917,10 @@ void add_final(const std::string& name, PacketStage<FinalCtx> stage, const Packe
     ctx.b = operand(3, 0);
     ctx.c.plane[0] = ctx.d.plane[0] = FinalCtx::kZero;
     add_packet_stage(name + "/product", stage, packet, ctx, written);
+    ctx.b.plane[0] = FinalCtx::kZero;
+    ctx.c.plane[0] = FinalCtx::kFinalProduct;
+    ctx.uses_final_product = 1;
+    add_packet_stage(name + "/product_of_three", stage, packet, ctx, written);
 }
 
 void add_store(const std::string& name,

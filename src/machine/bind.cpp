@@ -90,6 +90,12 @@ class Binder {
         return {constant(v.r), constant(v.g), constant(v.b), constant(v.a)};
     }
 
+    [[nodiscard]] std::optional<int> code_of(Value v) const {
+        const auto known = std::ranges::find(m_constants, v, &std::pair<const int, Value>::second);
+        if (known == m_constants.end()) return {};
+        return known->first;
+    }
+
     Components& at(Register r) { return m_registers[static_cast<std::size_t>(r)]; }
 
     Components input(Register r) {
@@ -122,6 +128,8 @@ class Binder {
             at(tex(unit)) =
                 enabled ? input(tex(unit)) : Components{zero, zero, zero, black ? zero : one};
             if (enabled && (units.bounded >> unit & 1) == 0) note_beyond_one(at(tex(unit)));
+            if (enabled && (units.positive >> unit & 1) != 0)
+                m_positive.insert(at(tex(unit)).begin(), at(tex(unit)).end());
         }
         at(Register::spare0)[3] = at(tex(0))[3];
     }
@@ -260,6 +268,14 @@ class Binder {
 
     // --- final combiner: always the global constants
 
+    /// 1 - x, where x is known, as another constant.
+    void complement(OperandValues& o) {
+        for (const Value v : o.value)
+            if (!code_of(v)) return;
+        for (Value& v : o.value) v = constant(m_one - *code_of(v));
+        o.mapping = Mapping::unsigned_identity;
+    }
+
     void read_final() {
         at(Register::const0) = constant(m_program.const0);
         at(Register::const1) = constant(m_program.const1);
@@ -271,6 +287,7 @@ class Binder {
             m_uses_product |= inputs[i]->reg == Register::final_product;
         }
         m_final[6] = read(f.g, true);
+        if (f.g.mapping == Mapping::unsigned_invert) complement(m_final[6]);
         if (!m_uses_product) m_final[4] = m_final[5] = read({}, false);
         const Components &spare0 = at(Register::spare0), &secondary = at(Register::col1);
         m_sum[0].value = {spare0[0], spare0[1], spare0[2]};
@@ -407,7 +424,7 @@ class Binder {
                 for (const Value v : m_operations[k].fetched) release_unread(v);
             }
         }
-        m_shown ? emit_shown() : emit_final();
+        m_shown ? emit_registers(*m_shown) : emit_final();
         m_bound.numbers = m_numbers;
     }
 
@@ -497,7 +514,12 @@ class Binder {
         return result;
     }
 
-    /// Of the final combiner.
+    [[nodiscard]] bool is_positive(Value v) const {
+        return m_positive.contains(v) || code_of(v).has_value();
+    }
+
+    // --- of the final combiner
+
     bool is_zero(const OperandValues& o) {
         const Value zero = constant(0);
         return o.mapping == Mapping::unsigned_identity &&
@@ -566,7 +588,22 @@ class Binder {
         m_bound.fetches.push_back(fetch);
     }
 
+    /// D and G as they lie in registers, all that the final combiner would do with them being to
+    /// clamp what is below 0 or beyond 1.
+    [[nodiscard]] std::optional<Components> copied_by_final() {
+        const OperandValues &d = m_final[3], &g = m_final[6];
+        const bool is_sum = m_uses_sum || m_uses_product;
+        if (m_everything || is_sum || !is_zero(m_final[1]) || !is_zero(m_final[2])) return {};
+        const Components values{d.value[0], d.value[1], d.value[2], g.value[0]};
+        const bool as_they_are =
+            d.mapping == Mapping::unsigned_identity && g.mapping == Mapping::unsigned_identity &&
+            std::all_of(values.begin(), values.end(), [this](Value v) { return is_positive(v); });
+        if (!as_they_are) return {};
+        return values;
+    }
+
     void emit_final() {
+        if (const auto copied = copied_by_final()) return emit_registers(*copied);
         FinalCtx& ctx = m_bound.final_combiner;
         const FinalCombiner& f = m_program.final_combiner;
         const Input* inputs[6] = {&f.a, &f.b, &f.c, &f.d, &f.e, &f.f};
@@ -595,10 +632,10 @@ class Binder {
         std::copy(std::begin(ctx.out), std::end(ctx.out), m_bound.result.begin());
     }
 
-    void emit_shown() {
+    void emit_registers(const Components& values) {
         m_bound.has_final = false;
         for (std::size_t c = 0; c < 4; ++c) {
-            const int plane = m_plane[static_cast<std::size_t>((*m_shown)[c])];
+            const int plane = m_plane[static_cast<std::size_t>(values[c])];
             m_bound.result[c] = static_cast<std::int16_t>(plane);
         }
     }
@@ -612,7 +649,8 @@ class Binder {
     std::array<Components, kRegisterCount> m_registers;
     int m_value_count = 0;
     std::map<int, Value> m_constants;  // by code
-    std::set<Value> m_beyond_one;      // what may lie outside of [-1, 1]
+    std::set<Value> m_beyond_one;      // what may lie outside of [-1, 1],
+    std::set<Value> m_positive;        // and inputs that lie within [0, 1]
     std::vector<std::pair<Register, Components>> m_inputs;
     std::vector<Operation> m_operations;
     std::array<OperandValues, 7> m_final;  // A .. G
