@@ -114,6 +114,21 @@ struct AnyDepth : AnyRule {
     }
 };
 
+/// Rows of pixels counted from one that is at most kMost away, each as often as a block is wide:
+/// rows of a block, from any on, are loaded one behind the other.
+struct RowNumbers {
+    static constexpr int kMost = kSmallSize + kBlockSize;
+    static constexpr int kRows = 2 * kMost + kBlockSize;
+    alignas(64) float number[kRows][kBlockSize];
+};
+constexpr RowNumbers make_row_numbers() {
+    RowNumbers rows{};
+    for (int i = 0; i < RowNumbers::kRows; ++i)
+        for (float& number : rows.number[i]) number = static_cast<float>(i - RowNumbers::kMost);
+    return rows;
+}
+constexpr RowNumbers kRowNumbers = make_row_numbers();
+
 /// Depths of covered pixels: tested and written.
 template <class Depth, bool HasIds>
 inline void draw_covered(int triangle, int block, std::uint64_t pixels,
@@ -122,7 +137,7 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
     const int x = block % kTileColumns * kBlockSize + ctx.left - t.reference_x;
     const int y = block / kTileColumns * kBlockSize + ctx.top - t.reference_y;
     const F32 z0(t.z), zx(t.zx), zy(t.zy), low(t.z_low), high(t.z_high);
-    const F32 first_y = to_float(lane_y() + I32(y));
+    const float* const rows = kRowNumbers.number[y + RowNumbers::kMost];
     F32 row[kRowVectors];
     for (int k = 0; k < kRowVectors; ++k)
         row[k] = z0 + to_float(lane_x() + I32(x + k * kLanes32)) * zx;
@@ -140,9 +155,7 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
     }
     for (int v = first; v < end; ++v) {
         const int at = v * kLanes32;
-        // Whole numbers below 2^24: exact, however they are added.
-        const F32 dy = first_y + F32(static_cast<float>(v / kRowVectors * kVectorRows));
-        const F32 z = min(max(row[v % kRowVectors] + dy * zy, low), high);
+        const F32 z = min(max(row[v % kRowVectors] + load(rows + at) * zy, low), high);
         const F32 old = load(depth + at);
         const Mask32 write = covered[v] & as_int(Depth::pass(ctx.rule, z, old));
         if (Depth::writes(ctx.rule)) store(depth + at, ::xsimd::select(as_float(write), z, old));
