@@ -249,6 +249,7 @@ struct Tile {
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
 
     std::vector<std::uint64_t> drawn;
+    std::array<std::uint8_t, kTileBlocks> blank{};  ///< none
 
     void draw(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
         drawn.resize(triangles.size());
@@ -423,7 +424,7 @@ void add_rasterize_entries(const std::string& name, float size, bool tiny) {
         (tiny ? table.rasterize_tiny : table.rasterize_small)(
             {entries.data(), static_cast<int>(entries.size()), sheet.triangles.data(),
              DepthRule{1, 0, 0, 1}, corner, corner, 0, tile.depth.data(), tile.id.data(),
-             tile.block_far.data(), tile.drawn.data()});
+             tile.block_far.data(), tile.drawn.data(), tile.blank.data(), tile.blank.data()});
     };
     add(
         name, static_cast<std::int64_t>(entries.size()),
