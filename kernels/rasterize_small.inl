@@ -108,9 +108,7 @@ struct AnyDepth : AnyRule {
     }
     static bool writes(const DepthRule& rule) { return rule.write != 0; }
     static F32 updated_far(const DepthRule& rule, F32 far, F32 high, MaskF seen, MaskF whole) {
-        if (rule.write == 0) return far;
-        if (rule.pass_greater != 0) return ::xsimd::select(seen, max(high, far), far);
-        return rule.pass_less != 0 ? ::xsimd::select(whole, min(high, far), far) : far;
+        return BURNISH_ISA::updated_far(rule, far, high, seen, whole);
     }
 };
 
@@ -267,9 +265,7 @@ void rasterize_small(const RasterizeEntriesCtx& ctx) {
 }
 
 void rasterize_small(const RasterizeEntriesCtx& ctx) noexcept {
-    const DepthRule& rule = ctx.rule;
-    const bool usual =
-        rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;
+    const bool usual = nearer_wins(ctx.rule);
     if (ctx.id != nullptr) {
         usual ? rasterize_small<UsualDepth, true>(ctx) : rasterize_small<AnyDepth, true>(ctx);
     } else {
