@@ -179,8 +179,9 @@ std::uint64_t draw_tiles(const std::vector<Chunk>& chunks, const KernelTable& ke
     const FrameSize size{kWidth, kHeight};
     for (std::int32_t y = 0; y * kTileSize < kHeight; ++y) {
         for (std::int32_t x = 0; x * kTileSize < kWidth; ++x) {
-            tile.begin(x, y, size, nullptr, kernels);
+            tile.begin(x, y, size, nullptr);
             for (const Chunk& chunk : chunks) tile.draw(chunk, {&rule, 1}, kernels);
+            tile.finish(kernels);
             for (int i = 0; hash != 0 && i < kTilePixels; ++i) {
                 std::uint32_t bits = 0;
                 std::memcpy(&bits, tile.depth() + i, sizeof bits);

@@ -249,6 +249,7 @@ struct Tile {
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
 
     std::vector<std::uint64_t> drawn;
+    std::array<std::uint8_t, kTileBlocks> blank{};  ///< none
 
     void draw(const KernelTable& table, const std::vector<TileTriangle>& triangles) {
         drawn.resize(triangles.size());
@@ -423,7 +424,7 @@ void add_rasterize_entries(const std::string& name, float size, bool tiny) {
         (tiny ? table.rasterize_tiny : table.rasterize_small)(
             {entries.data(), static_cast<int>(entries.size()), sheet.triangles.data(),
              DepthRule{1, 0, 0, 1}, corner, corner, 0, tile.depth.data(), tile.id.data(),
-             tile.block_far.data(), tile.drawn.data()});
+             tile.block_far.data(), tile.drawn.data(), tile.blank.data(), tile.blank.data()});
     };
     add(
         name, static_cast<std::int64_t>(entries.size()),
@@ -917,6 +918,10 @@ void add_final(const std::string& name, PacketStage<FinalCtx> stage, const Packe
     ctx.b = operand(3, 0);
     ctx.c.plane[0] = ctx.d.plane[0] = FinalCtx::kZero;
     add_packet_stage(name + "/product", stage, packet, ctx, written);
+    ctx.b.plane[0] = FinalCtx::kZero;
+    ctx.c.plane[0] = FinalCtx::kFinalProduct;
+    ctx.uses_final_product = 1;
+    add_packet_stage(name + "/product_of_three", stage, packet, ctx, written);
 }
 
 void add_store(const std::string& name,

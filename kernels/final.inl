@@ -7,6 +7,7 @@ I16 quotient_255(I16 p128) {
 /// Arithmetic of the final combiner, nine-bit model: all numbers are 0 .. 255, products 0 .. 65025.
 template <Rounding R, bool RoundEach>
 struct FinalNineBit {
+    static constexpr bool kHasSum = false;
     static constexpr std::int16_t kOne = 255;
     /// What quotient() wants added to a product beforehand.
     static constexpr std::int16_t kExtra = R == Rounding::nearest    ? 128
@@ -23,7 +24,7 @@ struct FinalNineBit {
         I16 operator()(I16 e) const { return max(e, I16(0)) ^ turn; }
         I16 turn;
     };
-    static I16 color_sum(I16 a, I16 b) { return a + b; }
+    static I16 sum(I16 a, I16 b) { return a + b; }
     static I16 product(I16 a, I16 b) { return quotient(a * b + I16(kExtra)); }
     static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
         const I16 rest = a ^ I16(kOne);
@@ -36,6 +37,7 @@ struct FinalNineBit {
 template <Rounding R, bool RoundEach>
 struct FinalNineBitSum : FinalNineBit<R, RoundEach> {
     using Base = FinalNineBit<R, RoundEach>;
+    static constexpr bool kHasSum = true;
     static constexpr std::int16_t kOne = Base::kOne, kExtra = Base::kExtra;
     struct Map {
         Map(bool inverted, bool /*is_sum*/)
@@ -61,6 +63,7 @@ struct FinalNineBitSum : FinalNineBit<R, RoundEach> {
 };
 
 struct FinalWide {
+    static constexpr bool kHasSum = false;
     static constexpr std::int16_t kOne = 16384;
 
     /// Clamps to 0 .. 1; then x or 1 - x.
@@ -70,7 +73,7 @@ struct FinalWide {
         I16 operator()(I16 e) const { return (min(max(e, I16(0)), I16(kOne)) ^ turn) + offset; }
         I16 turn, offset;
     };
-    static I16 color_sum(I16 a, I16 b) { return ::xsimd::sadd(a, b); }
+    static I16 sum(I16 a, I16 b) { return ::xsimd::sadd(a, b); }
     static I16 product(I16 a, I16 b) { return mul_14_bits_positive(a, b); }
     static I16 lerp(I16 a, I16 b, I16 c, I16 d) {
         const I16 rest = I16(kOne) - a;
@@ -83,6 +86,7 @@ struct FinalWide {
 
 /// The same with the colour sum, up to 32767, as B, C or D.
 struct FinalWideSum : FinalWide {
+    static constexpr bool kHasSum = true;
     struct Map {
         Map(bool inverted, bool is_sum)
             : plain(inverted, is_sum), high(is_sum && !inverted ? std::int16_t{32767} : kOne) {}
@@ -129,17 +133,66 @@ struct FinalSource {
     typename Model::Map map;
 };
 
-/// What is left of A * B + (1 - A) * C + D where operands are 0; products that are not there round
-/// to 0 in every way.
-enum class FinalShape : std::uint8_t { whole, product, last };
+/// E * F where no other operand asks for it, with its mapping as a factor.
+template <class Model>
+struct FinalProduct {
+    FinalProduct(const Packet& packet, const FinalCtx& ctx, const Operand& factor, int component,
+                 const PseudoRegisters& pseudo)
+        : e(packet, ctx.e, component, pseudo),
+          f(packet, ctx.f, component, pseudo),
+          map(factor.mapping == 1, false) {}
+    I16 operator()(int i) const { return map(Model::product(e(i), f(i))); }
+    FinalSource<Model> e, f;
+    typename Model::Map map;
+};
 
 inline bool is_zero(const Operand& o) {
     return o.plane[0] == FinalCtx::kZero;
 }
-inline FinalShape final_shape(const FinalCtx& ctx) {
-    if (ctx.uses_color_sum != 0 || !is_zero(ctx.c)) return FinalShape::whole;
-    if (is_zero(ctx.b)) return FinalShape::last;
-    return is_zero(ctx.d) ? FinalShape::product : FinalShape::whole;
+inline bool is_final_product(const Operand& o) {
+    return o.plane[0] == FinalCtx::kFinalProduct;
+}
+
+/// What is left of A * B + (1 - A) * C + D where operands are 0: a product A * B, which is
+/// (1 - A) * C with A complemented where B is 0, and D. Products that are not there round to 0 in
+/// every way.
+struct FinalTerms {
+    explicit FinalTerms(const FinalCtx& ctx)
+        : a(ctx.a),
+          b(is_zero(ctx.b) ? ctx.c : ctx.b),
+          are_few(ctx.uses_color_sum == 0 && (is_zero(ctx.b) || is_zero(ctx.c))),
+          has_product(!is_zero(b)),
+          has_d(!is_zero(ctx.d)),
+          has_nested(is_final_product(b) && !is_final_product(a) && !is_final_product(ctx.d)) {
+        if (is_zero(ctx.b)) a.mapping ^= 1;
+    }
+    Operand a, b;
+    bool are_few;
+    bool has_product, has_d;
+    bool has_nested;  ///< E * F is a factor, and nothing else
+};
+
+/// A product and D, or one of them, of one component.
+template <class Model>
+void final_terms(const Packet& packet, const FinalCtx& ctx, const FinalTerms& terms, int component,
+                 const PseudoRegisters& pseudo, int n, std::int16_t* out) {
+    using Source = FinalSource<Model>;
+    const auto write = [&](const auto& value) {
+        for (int i = 0; i < n; i += kLanes) store(out + i, value(i));
+    };
+    const Source d(packet, ctx.d, component, pseudo);
+    if (!terms.has_product) return write(d);
+    const Source a(packet, terms.a, component, pseudo);
+    const auto write_with = [&](const auto& b) {
+        if (!terms.has_d) return write([&](int i) { return Model::product(a(i), b(i)); });
+        const I16 one(Model::kOne);
+        write([&](int i) { return min(Model::sum(Model::product(a(i), b(i)), d(i)), one); });
+    };
+    if (terms.has_nested) {
+        write_with(FinalProduct<Model>(packet, ctx, terms.b, component, pseudo));
+    } else {
+        write_with(Source(packet, terms.b, component, pseudo));
+    }
 }
 
 template <class Model>
@@ -148,12 +201,15 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
     PseudoRegisters pseudo;
     const I16 one(Model::kOne);
     const int n = group_count(packet);
-    const FinalShape shape = final_shape(ctx);
-    const bool whole = shape == FinalShape::whole;
-    if ((whole && (is_zero(ctx.b) || is_zero(ctx.c))) || is_zero(ctx.d))
+    const FinalTerms terms(ctx);
+    const bool few = !Model::kHasSum && terms.are_few;
+    const bool reads_zeros = few ? !terms.has_product && !terms.has_d
+                                 : is_zero(ctx.b) || is_zero(ctx.c) || is_zero(ctx.d);
+    if (reads_zeros)
         for (int i = 0; i < n; i += kLanes) store(pseudo.zero + i, I16(0));
     for (int k = 0; k < 3; ++k) {
-        if (ctx.uses_color_sum != 0) {
+        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
+        if constexpr (Model::kHasSum) {
             const I16 limit(ctx.clamp_color_sum != 0 ? Model::kOne : std::int16_t{32767});
             const std::int16_t* const spare0 = packet.planes + ctx.spare0[k] * kPacketSize;
             const std::int16_t* const secondary = packet.planes + ctx.secondary[k] * kPacketSize;
@@ -161,30 +217,25 @@ void final_combiner(Packet& packet, const FinalCtx& ctx) {
                 map1(ctx.complement_secondary != 0, false);
             for (int i = 0; i < n; i += kLanes) {
                 store(pseudo.sum + i,
-                      min(Model::color_sum(map0(load(spare0 + i)), map1(load(secondary + i))),
-                          limit));
+                      min(Model::sum(map0(load(spare0 + i)), map1(load(secondary + i))), limit));
             }
         }
-        if (ctx.uses_final_product != 0) {
+        if (ctx.uses_final_product != 0 && !(few && terms.has_nested)) {
             const Source e(packet, ctx.e, k, pseudo), f(packet, ctx.f, k, pseudo);
             for (int i = 0; i < n; i += kLanes) {
                 store(pseudo.product + i, Model::product(e(i), f(i)));
             }
         }
+        if constexpr (!Model::kHasSum) {
+            if (few) {
+                final_terms<Model>(packet, ctx, terms, k, pseudo, n, out);
+                continue;
+            }
+        }
         const Source a(packet, ctx.a, k, pseudo), b(packet, ctx.b, k, pseudo),
             c(packet, ctx.c, k, pseudo), d(packet, ctx.d, k, pseudo);
-        std::int16_t* const out = packet.planes + ctx.out[k] * kPacketSize;
-        switch (shape) {
-            case FinalShape::product:
-                for (int i = 0; i < n; i += kLanes) store(out + i, Model::product(a(i), b(i)));
-                break;
-            case FinalShape::last:
-                for (int i = 0; i < n; i += kLanes) store(out + i, min(d(i), one));
-                break;
-            case FinalShape::whole:
-                for (int i = 0; i < n; i += kLanes) {
-                    store(out + i, min(Model::lerp(a(i), b(i), c(i), d(i)), one));
-                }
+        for (int i = 0; i < n; i += kLanes) {
+            store(out + i, min(Model::lerp(a(i), b(i), c(i), d(i)), one));
         }
     }
     const Source g(packet, ctx.g, 0, pseudo);

@@ -52,14 +52,22 @@ struct BlockMasks {
     std::uint64_t clamped = 0;  ///< the plane leaves the range of the depths
 };
 
-/// Upper bounds of blocks' depths after the triangle was drawn in them; `whole`: all of their
-/// pixels are covered.
-inline F32 updated_far(const TileTriangle& t, F32 far, F32 farthest, Mask32 touched, Mask32 whole) {
-    if (t.depth_write == 0) return far;
-    if (t.pass_greater != 0) return ::xsimd::select(as_float(touched), max(farthest, far), far);
-    if (t.pass_less == 0) return far;
+inline DepthRule depth_rule(const TileTriangle& t) {
+    return {t.pass_less, t.pass_equal, t.pass_greater, t.depth_write};
+}
+/// The usual rule: nearer fragments win and leave their depth.
+inline bool nearer_wins(const DepthRule& rule) {
+    return rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;
+}
+
+/// Upper bounds of blocks' depths after a triangle was drawn in them; `touched`: something may pass
+/// there, `whole`: all of their pixels are covered.
+inline F32 updated_far(const DepthRule& rule, F32 far, F32 farthest, MaskF touched, MaskF whole) {
+    if (rule.write == 0) return far;
+    if (rule.pass_greater != 0) return ::xsimd::select(touched, max(farthest, far), far);
+    if (rule.pass_less == 0) return far;
     // Whatever the test left is no farther than the triangle.
-    return ::xsimd::select(as_float(touched & whole), min(farthest, far), far);
+    return ::xsimd::select(touched & whole, min(farthest, far), far);
 }
 
 /// Classifies the blocks of the bounding box, as many at a time as there are lanes: the tile is 8x8
@@ -115,15 +123,12 @@ inline BlockMasks classify_blocks(const TileTriangle& t, const TriangleEdges& ed
             static_cast<std::uint64_t>(bits(as_int((near_plane < low) | (far_plane > high))))
             << shift;
         store(block_far + shift,
-              updated_far(t, far, farthest, lanes_of(static_cast<std::uint32_t>(seen)), whole));
+              updated_far(depth_rule(t), far, farthest,
+                          as_float(lanes_of(static_cast<std::uint32_t>(seen))), as_float(whole)));
     }
     return masks;
 }
 
-/// The usual rule: nearer fragments win and leave their depth.
-inline bool nearer_wins(const TileTriangle& t) {
-    return t.pass_less != 0 && t.pass_equal == 0 && t.pass_greater == 0 && t.depth_write != 0;
-}
 struct NearerWins {
     template <class Tested>
     static MaskF pass(const Tested&, F32 z, F32 old) {
@@ -246,8 +251,8 @@ std::uint64_t rasterize_triangle(const TileTriangle& t, const RasterizeCtx& ctx)
 
 template <class Trace>
 std::uint64_t rasterize_by_rule(const TileTriangle& t, const RasterizeCtx& ctx) {
-    return nearer_wins(t) ? rasterize_triangle<NearerWins, Trace>(t, ctx)
-                          : rasterize_triangle<AnyRule, Trace>(t, ctx);
+    return nearer_wins(depth_rule(t)) ? rasterize_triangle<NearerWins, Trace>(t, ctx)
+                                      : rasterize_triangle<AnyRule, Trace>(t, ctx);
 }
 
 void rasterize(const RasterizeCtx& ctx) noexcept {
@@ -294,5 +299,5 @@ void cover_by(const CoverCtx& ctx) {
     *ctx.blocks = blocks;
 }
 void cover(const CoverCtx& ctx) noexcept {
-    nearer_wins(*ctx.triangle) ? cover_by<NearerWins>(ctx) : cover_by<AnyRule>(ctx);
+    nearer_wins(depth_rule(*ctx.triangle)) ? cover_by<NearerWins>(ctx) : cover_by<AnyRule>(ctx);
 }

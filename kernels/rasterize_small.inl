@@ -108,11 +108,46 @@ struct AnyDepth : AnyRule {
     }
     static bool writes(const DepthRule& rule) { return rule.write != 0; }
     static F32 updated_far(const DepthRule& rule, F32 far, F32 high, MaskF seen, MaskF whole) {
-        if (rule.write == 0) return far;
-        if (rule.pass_greater != 0) return ::xsimd::select(seen, max(high, far), far);
-        return rule.pass_less != 0 ? ::xsimd::select(whole, min(high, far), far) : far;
+        return BURNISH_ISA::updated_far(rule, far, high, seen, whole);
     }
 };
+
+/// Rows of pixels counted from one that is at most kMost away, each as often as a block is wide:
+/// rows of a block, from any on, are loaded one behind the other.
+struct RowNumbers {
+    static constexpr int kMost = kSmallSize + kBlockSize;
+    static constexpr int kRows = 2 * kMost + kBlockSize;
+    alignas(64) float number[kRows][kBlockSize];
+};
+constexpr RowNumbers make_row_numbers() {
+    RowNumbers rows{};
+    for (int i = 0; i < RowNumbers::kRows; ++i)
+        for (float& number : rows.number[i]) number = static_cast<float>(i - RowNumbers::kMost);
+    return rows;
+}
+constexpr RowNumbers kRowNumbers = make_row_numbers();
+
+/// What a blank block holds.
+struct BlankBlock {
+    alignas(64) float depth[kBlockPixels];
+    alignas(64) std::int32_t id[kBlockPixels];
+};
+constexpr BlankBlock make_blank_block() {
+    BlankBlock block{};
+    for (float& depth : block.depth) depth = 1.0F;
+    for (std::int32_t& id : block.id) id = static_cast<std::int32_t>(kNoTriangle);
+    return block;
+}
+constexpr BlankBlock kBlankBlock = make_blank_block();
+
+/// Where the words of a block lie: in a blank block or in the tile, without a branch, since there
+/// is no telling.
+template <class Word>
+inline const Word* stored_words(std::uint8_t blank, const Word* of_blank, const Word* of_tile) {
+    const auto tile = reinterpret_cast<std::uintptr_t>(of_tile);
+    const std::uintptr_t other = reinterpret_cast<std::uintptr_t>(of_blank) ^ tile;
+    return reinterpret_cast<const Word*>(tile ^ (other & (std::uintptr_t{0} - blank)));
+}
 
 /// Depths of covered pixels: tested and written.
 template <class Depth, bool HasIds>
@@ -122,33 +157,42 @@ inline void draw_covered(int triangle, int block, std::uint64_t pixels,
     const int x = block % kTileColumns * kBlockSize + ctx.left - t.reference_x;
     const int y = block / kTileColumns * kBlockSize + ctx.top - t.reference_y;
     const F32 z0(t.z), zx(t.zx), zy(t.zy), low(t.z_low), high(t.z_high);
-    const F32 first_y = to_float(lane_y() + I32(y));
+    const float* const rows = kRowNumbers.number[y + RowNumbers::kMost];
     F32 row[kRowVectors];
     for (int k = 0; k < kRowVectors; ++k)
         row[k] = z0 + to_float(lane_x() + I32(x + k * kLanes32)) * zx;
     const BlockLanes covered(pixels);
     float* const depth = ctx.depth + block * kBlockPixels;
+    const float* old_depth = depth;
+    bool is_blank = false;
     std::int32_t* id = nullptr;
-    if constexpr (HasIds) id = reinterpret_cast<std::int32_t*>(ctx.id) + block * kBlockPixels;
+    const std::int32_t* old_id = nullptr;
+    if constexpr (HasIds) {
+        id = reinterpret_cast<std::int32_t*>(ctx.id) + block * kBlockPixels;
+        const std::uint8_t blank_depth = ctx.blank_depths[block], blank_id = ctx.blank_ids[block];
+        old_depth = stored_words<float>(blank_depth, kBlankBlock.depth, depth);
+        old_id = stored_words<std::int32_t>(blank_id, kBlankBlock.id, id);
+        is_blank = (blank_depth | blank_id) != 0;
+        if (Depth::writes(ctx.rule)) ctx.blank_depths[block] = 0;
+        ctx.blank_ids[block] = 0;
+    }
     const I32 new_id(static_cast<std::int32_t>(ctx.first_id) + triangle);
     Mask32 any(false);
     // Where four vectors make a block the mispredicted end of the loop costs more than they do.
     int first = 0, end = kBlockVectors;
-    if constexpr (kBlockVectors > 4) {
+    if (kBlockVectors > 4 && !is_blank) {
         first = __builtin_ctzll(pixels) / kLanes32;
         end = (63 - __builtin_clzll(pixels)) / kLanes32 + 1;
     }
     for (int v = first; v < end; ++v) {
         const int at = v * kLanes32;
-        // Whole numbers below 2^24: exact, however they are added.
-        const F32 dy = first_y + F32(static_cast<float>(v / kRowVectors * kVectorRows));
-        const F32 z = min(max(row[v % kRowVectors] + dy * zy, low), high);
-        const F32 old = load(depth + at);
+        const F32 z = min(max(row[v % kRowVectors] + load(rows + at) * zy, low), high);
+        const F32 old = load(old_depth + at);
         const Mask32 write = covered[v] & as_int(Depth::pass(ctx.rule, z, old));
         if (Depth::writes(ctx.rule)) store(depth + at, ::xsimd::select(as_float(write), z, old));
         if constexpr (HasIds) {
             any = any | write;
-            store(id + at, ::xsimd::select(write, new_id, load(id + at)));
+            store(id + at, ::xsimd::select(write, new_id, load(old_id + at)));
         }
     }
     if constexpr (HasIds)
@@ -221,9 +265,7 @@ void rasterize_small(const RasterizeEntriesCtx& ctx) {
 }
 
 void rasterize_small(const RasterizeEntriesCtx& ctx) noexcept {
-    const DepthRule& rule = ctx.rule;
-    const bool usual =
-        rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;
+    const bool usual = nearer_wins(ctx.rule);
     if (ctx.id != nullptr) {
         usual ? rasterize_small<UsualDepth, true>(ctx) : rasterize_small<AnyDepth, true>(ctx);
     } else {

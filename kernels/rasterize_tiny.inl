@@ -145,9 +145,7 @@ void rasterize_tiny(const RasterizeEntriesCtx& ctx) {
 }
 
 void rasterize_tiny(const RasterizeEntriesCtx& ctx) noexcept {
-    const DepthRule& rule = ctx.rule;
-    const bool usual =
-        rule.pass_less != 0 && rule.pass_equal == 0 && rule.pass_greater == 0 && rule.write != 0;
+    const bool usual = nearer_wins(ctx.rule);
     if (ctx.id != nullptr) {
         usual ? rasterize_tiny<true, true>(ctx) : rasterize_tiny<false, true>(ctx);
     } else {

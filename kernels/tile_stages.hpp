@@ -271,7 +271,8 @@ struct RasterizeCtx {
 /// cover pixels whose centres are inside as SetupCtx has it, whatever the mask, and are looked at
 /// beyond the frame as well where they reach there.
 /// The ids are first_id and those that follow; offset_x of the TileTriangle would be
-/// left - reference_x. Pixels of a mask lie inside the tile, boxes reach into it.
+/// left - reference_x. Pixels of a mask lie inside the tile, boxes reach into it. The reference
+/// pixel of a small triangle is as SetupCtx has it, a corner's, cut to the frame.
 inline constexpr int kMostEntries = 32768;
 struct RasterizeEntriesCtx {
     const TileEntry* entries;
@@ -284,6 +285,10 @@ struct RasterizeEntriesCtx {
     std::uint32_t* id;     ///< likewise; null: depths alone
     float* block_far;      ///< kTileBlocks
     std::uint64_t* drawn;  ///< out, `count` elements; unused without ids
+    /// Of rasterize_small with ids alone, kTileBlocks each: 1: nothing was drawn in the block yet,
+    /// whose depths are 1 and whose ids are kNoTriangle, whatever is stored. Blocks may be written
+    /// whole and get a 0; what stays 1 stays as it is.
+    std::uint8_t *blank_depths, *blank_ids;
 };
 
 /// One triangle's coverage and depth as RasterizeCtx has them, for draws that need order: in place

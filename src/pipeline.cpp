@@ -460,7 +460,7 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     }
     {
         const StageScope scope(FrameStage::coverage, 0, worker.clock);
-        visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y), kernels);
+        visibility.begin(x, y, size, first_round ? nullptr : saved_depth(x, y));
     }
     worker.has_background = false;
     if (!first_round && !depth_alone) {
@@ -482,6 +482,10 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     }
     worker.shader.flush(kernels);
     shade_visible(worker);
+    if (!last_round || depth_alone) {
+        const StageScope scope(FrameStage::coverage, 0, worker.clock);
+        visibility.finish(kernels);
+    }
     if (!last_round) std::copy_n(visibility.depth(), kTilePixels, saved_depth(x, y));
     const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
     if (!depth_alone) {

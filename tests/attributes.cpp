@@ -142,7 +142,7 @@ class Measure {
         TileVisibility tile;
         for (std::int32_t y = 0; y * kTileSize < size.height; ++y) {
             for (std::int32_t x = 0; x * kTileSize < size.width; ++x) {
-                tile.begin(x, y, size, nullptr, m_kernels);
+                tile.begin(x, y, size, nullptr);
                 tile.draw(chunk, {&rule, 1}, m_kernels);
                 measure_tile(tile);
             }

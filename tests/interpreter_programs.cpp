@@ -20,10 +20,11 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Isa, KernelTest, every_table(), isa_name);
 
-/// Colours and texels within [-1, 1], or any register's.
+/// Colours and texels within [-1, 1], or any register's, and some texels within [0, 1].
 void bound_inputs(Random& random, UnitStates& states) {
     states.bounded_colors = random.chance(2);
     states.bounded = states.bounded_colors ? ~0U : 0U;
+    states.positive = static_cast<std::uint32_t>(random.below(1 << 16));
 }
 
 /// Inputs of every fragment: extremes of the range and anything between; what a disabled unit
@@ -42,6 +43,8 @@ std::vector<RegisterFile> random_inputs(Random& random, const Machine& machine, 
             const Register reg = r == 0 ? Register::col0 : r == 1 ? Register::col1 : tex(r - 2);
             for (int& code : file[reg])
                 code = random.chance(3) ? random.pick(extremes) : random.between(low, high);
+            if (r >= 2 && (states.positive >> (r - 2) & 1) != 0)
+                for (int& code : file[reg]) code = std::clamp(code, 0, one);
             if (r >= 2 && (states.enabled >> (r - 2) & 1) == 0) file[reg] = {0, 0, 0, one};
         }
     }
@@ -67,9 +70,9 @@ struct ProgramPacket {
         }
     }
     std::int16_t* plane(int k) { return planes.data() + std::ptrdiff_t{k} * kPacketSize; }
-    Codes result(const FinalCtx& final, int i) {
-        return {plane(final.out[0])[i], plane(final.out[1])[i], plane(final.out[2])[i],
-                plane(final.out[3])[i]};
+    Codes result(const BoundProgram& bound, int i) {
+        return {plane(bound.result[0])[i], plane(bound.result[1])[i], plane(bound.result[2])[i],
+                plane(bound.result[3])[i]};
     }
 };
 
@@ -95,12 +98,27 @@ unsigned program_count(unsigned usual) {
     return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : usual;
 }
 
+/// The program's final combiner with D and G alone: texels, constants, and now and then 1 - one.
+void copy_registers(Random& random, const Machine& machine, CombinerProgram& program) {
+    const auto copied = [&](Component component) {
+        const Register texel = tex(random.below(machine.texture_units));
+        return Input{random.chance(3) ? Register::const0 : texel,
+                     random.chance(4) ? Mapping::unsigned_invert : Mapping::unsigned_identity,
+                     component};
+    };
+    FinalCombiner& f = program.final_combiner;
+    f.b = f.c = {Register::zero, Mapping::unsigned_identity, Component::rgb};
+    f.d = copied(random.chance(3) ? Component::alpha : Component::rgb);
+    f.g = copied(Component::alpha);
+}
+
 void check_programs(const KernelTable& table, const Machine& profile, unsigned usual) {
     const unsigned programs = program_count(usual);
     for (unsigned seed = 0; seed < programs; ++seed) {
         Random random(seed);
         const Machine machine = with_choices(random, profile);
-        const CombinerProgram program = random_program(random, machine);
+        CombinerProgram program = random_program(random, machine);
+        if (seed % 8 == 0) copy_registers(random, machine, program);
         const auto enabled = static_cast<std::uint32_t>(random.below(1 << machine.texture_units)) |
                              static_cast<std::uint32_t>(random.below(1 << machine.texture_units));
         UnitStates states{.enabled = enabled};
@@ -112,7 +130,7 @@ void check_programs(const KernelTable& table, const Machine& profile, unsigned u
         run(bound, table, memory.packet);
         for (int i = 0; i < count; ++i) {
             const Codes want = run_combiners(program, machine, inputs[static_cast<std::size_t>(i)]);
-            const Codes got = memory.result(bound.final_combiner, i);
+            const Codes got = memory.result(bound, i);
             ASSERT_EQ(got, want) << table.isa << ", " << machine.name << ", seed " << seed
                                  << ", fragment " << i << ": got " << text(got) << ", want "
                                  << text(want) << ", " << program.stages.size() << " stages";
@@ -244,7 +262,7 @@ void check_fetches(const KernelTable& table, const Machine& machine, unsigned us
         for (int i = 0; i < count; ++i) {
             const Codes want = run_combiners(program, machine, inputs[static_cast<std::size_t>(i)],
                                              nullptr, fetch);
-            const Codes got = memory.result(bound.shading.program.final_combiner, i);
+            const Codes got = memory.result(bound.shading.program, i);
             ASSERT_EQ(got, want) << table.isa << ", " << machine.name << ", seed " << seed
                                  << ", fragment " << i << ": got " << text(got) << ", want "
                                  << text(want);

@@ -124,14 +124,24 @@ struct Tile {
     AlignedVector<std::uint32_t> id = AlignedVector<std::uint32_t>(kTilePixels + 1, kNoTriangle);
     AlignedVector<float> block_far = AlignedVector<float>(kTileBlocks, 1.0F);
     std::vector<std::uint64_t> drawn;
+    std::array<std::uint8_t, kTileBlocks> blank_depths{}, blank_ids{};
 
+    /// What blank blocks hold, in place of what is stored.
+    void fill_blank() {
+        for (std::size_t i = 0; i < kTilePixels; ++i) {
+            if (blank_depths[i / kBlockPixels] != 0) depth[i] = 1.0F;
+            if (blank_ids[i / kBlockPixels] != 0) id[i] = kNoTriangle;
+        }
+        blank_depths = blank_ids = {};
+    }
     void run(const KernelTable& table, EntryStage stage, const std::vector<TileEntry>& entries,
              const std::vector<SetupTriangle>& triangles, const DepthRule& rule,
              bool depth_alone = false) {
         drawn.assign(entries.size(), ~std::uint64_t{0});
         (table.*stage)({entries.data(), static_cast<int>(entries.size()), triangles.data(), rule,
                         kLeft, kTop, 5, depth.data(), depth_alone ? nullptr : id.data(),
-                        block_far.data(), depth_alone ? nullptr : drawn.data()});
+                        block_far.data(), depth_alone ? nullptr : drawn.data(), blank_depths.data(),
+                        depth_alone ? nullptr : blank_ids.data()});
     }
     static constexpr std::int32_t kLeft = 640, kTop = 128;
 };
@@ -146,10 +156,18 @@ void check_entries(const KernelTable& table, EntryStage stage, Random& random,
     Tile got;
     for (std::size_t i = 0; i < kTilePixels; ++i)
         got.depth[i] = static_cast<float>(random.between(0, 8)) * 0.125F;
+    if (stage == &KernelTable::rasterize_small) {
+        for (auto* blank : {&got.blank_depths, &got.blank_ids})
+            if (!random.chance(3))
+                for (std::uint8_t& is_blank : *blank)
+                    is_blank = static_cast<std::uint8_t>(random.below(2));
+    }
     Tile want = got, alone = got;
+    alone.fill_blank();
     got.run(table, stage, entries, triangles, rule);
     alone.run(table, stage, entries, triangles, rule, true);
     want.run(table_reference(), stage, entries, triangles, rule);
+    for (Tile* tile : {&got, &alone, &want}) tile->fill_blank();
     for (std::size_t i = 0; i < kTilePixels; ++i) {
         ASSERT_EQ(got.id[i], want.id[i]) << where << ", pixel " << i;
         ASSERT_TRUE(same_bits(got.depth[i], want.depth[i])) << where << ", pixel " << i;
@@ -232,6 +250,18 @@ bool set_small_corners(Random& random, SetupTriangle& t) {
            t.box.y1 >= Tile::kTop && t.box.y0 < Tile::kTop + kTileSize;
 }
 
+/// A corner's pixel, now and then cut to a frame that ends with the tile.
+void set_reference(Random& random, SetupTriangle& t) {
+    const auto k = static_cast<std::size_t>(random.below(3));
+    std::int32_t x = t.x[k] >> 8, y = t.y[k] >> 8;
+    if (random.chance(4)) {
+        x = std::clamp(x, Tile::kLeft, Tile::kLeft + kTileSize - 1);
+        y = std::clamp(y, Tile::kTop, Tile::kTop + kTileSize - 1);
+    }
+    t.reference_x = static_cast<std::int16_t>(x);
+    t.reference_y = static_cast<std::int16_t>(y);
+}
+
 TEST_P(KernelTest, RasterizeSmallOfRandomTriangles) {
     for (unsigned seed = 0; seed < 2000; ++seed) {
         Random random(seed);
@@ -239,7 +269,9 @@ TEST_P(KernelTest, RasterizeSmallOfRandomTriangles) {
         std::vector<TileEntry> entries;
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
             triangles[i] = random_plane(random);
-            if (set_small_corners(random, triangles[i])) entries.push_back({0, i, 0, 0, 0});
+            if (!set_small_corners(random, triangles[i])) continue;
+            set_reference(random, triangles[i]);
+            entries.push_back({0, i, 0, 0, 0});
         }
         if (entries.empty()) continue;
         ASSERT_NO_FATAL_FAILURE(
@@ -273,6 +305,8 @@ TEST_P(KernelTest, RasterizeSmallNextToPixelCentres) {
                 }
                 t.box = {Tile::kLeft, Tile::kTop, Tile::kLeft + kTileSize - 1,
                          Tile::kTop + kTileSize - 1};
+                t.reference_x = Tile::kLeft;
+                t.reference_y = Tile::kTop;
                 entries.push_back({0, static_cast<std::uint32_t>(triangles.size()), 0, 0, 0});
                 triangles.push_back(t);
             }

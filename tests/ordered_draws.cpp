@@ -355,7 +355,7 @@ Framebuffer draw_tile(const Scene& scene, const KernelTable& kernels,
         rules.push_back(draw.depth);
         shaded.push_back({&draw.shading, &draw.output, draw.mesh()});
     }
-    visibility.begin(0, 0, size, nullptr, kernels);
+    visibility.begin(0, 0, size, nullptr);
     image.set_background(scene.background);
     image.clear();
     shader.begin(

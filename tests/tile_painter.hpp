@@ -43,7 +43,7 @@ class TilePainter {
         std::uint64_t drawn = 0;
         (entry.covered != 0 ? m_kernels.rasterize_tiny : m_kernels.rasterize_small)(
             {&alone, 1, &triangle, rule, tile_x * kTileSize, tile_y * kTileSize, m_current,
-             m_depth.data(), m_id.data(), m_far.data(), &drawn});
+             m_depth.data(), m_id.data(), m_far.data(), &drawn, m_blank, m_blank});
         return true;
     }
 
@@ -80,6 +80,7 @@ class TilePainter {
 
     const KernelTable& m_kernels;
     AlignedVector<float> m_depth, m_far;
+    std::uint8_t m_blank[kTileBlocks] = {};  ///< none
     AlignedVector<std::uint32_t> m_id;
     TileTriangle m_seen{};
     std::uint32_t m_current = 0;

@@ -232,7 +232,19 @@ void draw_pixel(const RasterizeEntriesCtx& ctx, int k, int x, int y) {
     far = std::max(far, depth);
 }
 
+/// Writes `value` to blank blocks.
+template <class Value>
+void fill_blank(std::uint8_t* blank, Value* tile, Value value) {
+    for (int i = 0; i < kTilePixels; ++i)
+        if (blank[i / kBlockPixels] != 0) tile[i] = value;
+    std::fill_n(blank, kTileBlocks, std::uint8_t{0});
+}
+
 void rasterize_small(const RasterizeEntriesCtx& ctx) noexcept {
+    if (ctx.id != nullptr) {
+        fill_blank(ctx.blank_depths, ctx.depth, 1.0F);
+        fill_blank(ctx.blank_ids, ctx.id, kNoTriangle);
+    }
     for (int k = 0; k < ctx.count; ++k) {
         const SetupTriangle& t = ctx.triangles[ctx.entries[k].triangle];
         if (ctx.id != nullptr) ctx.drawn[k] = 0;

@@ -194,7 +194,7 @@ struct BitRenderer::State {
     /// Calls take(triangle, x, y) for every visible fragment of tile (x, y).
     template <class Take>
     void for_each_fragment(std::int32_t x, std::int32_t y, TileVisibility& tile, const Take& take) {
-        tile.begin(x, y, size, nullptr, table_reference());
+        tile.begin(x, y, size, nullptr);
         for (const Chunk& chunk : chunks) {
             if (!chunk.tile(x, y).empty()) tile.draw(chunk, rules, table_reference());
         }

@@ -44,7 +44,7 @@ struct BoundProgram {
     std::array<std::array<int, 4>, kRegisterCount> input;
     std::vector<PortionCtx> portions;
     std::vector<BoundFetch> fetches;  ///< in the order in which they run
-    bool has_final = true;
+    bool has_final = true;            ///< else the result lies in registers already
     FinalCtx final_combiner{};
     std::array<std::int16_t, 4> result{};  ///< planes of r, g, b, a
 
@@ -57,7 +57,8 @@ struct UnitStates {
     std::uint32_t black = 0;    ///< not enabled and reads (0, 0, 0, 0); else it reads (0, 0, 0, 1)
     std::uint32_t textured =
         0;  ///< fetches between stages find a texture; others bring (0, 0, 0, 1)
-    std::uint32_t bounded = 0;    ///< its texels lie within [-1, 1]
+    std::uint32_t bounded = 0;    ///< its texels lie within [-1, 1],
+    std::uint32_t positive = 0;   ///< within [0, 1]
     bool bounded_colors = false;  ///< col0 and col1 do, too
 };
 

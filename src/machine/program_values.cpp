@@ -47,6 +47,7 @@ class ValueBuilder {
             m_values.shown = at(wanted.coded ? Register::spare0 : *wanted.reg);
         } else {
             read_final();
+            if (!wanted.everything) m_values.shown = copied_by_final();
         }
         if (!wanted.everything) drop_unread();
         return std::move(m_values);
@@ -100,6 +101,8 @@ class ValueBuilder {
             at(tex(unit)) =
                 enabled ? input(tex(unit)) : Components{zero, zero, zero, black ? zero : one};
             if (enabled && (units.bounded >> unit & 1) == 0) note_beyond_one(at(tex(unit)));
+            if (enabled && (units.positive >> unit & 1) != 0)
+                m_positive.insert(at(tex(unit)).begin(), at(tex(unit)).end());
         }
         at(Register::spare0)[3] = at(tex(0))[3];
     }
@@ -229,6 +232,38 @@ class ValueBuilder {
 
     // --- final combiner: always the global constants
 
+    [[nodiscard]] std::optional<int> code_of(Value v) const {
+        const auto known =
+            std::ranges::find(m_values.constants, v, &std::pair<const int, Value>::second);
+        if (known == m_values.constants.end()) return {};
+        return known->first;
+    }
+
+    /// 1 - x, where x is known, as another constant.
+    void complement(OperandValues& o) {
+        for (const Value v : o.value)
+            if (!code_of(v)) return;
+        for (Value& v : o.value) v = constant(m_one - *code_of(v));
+        o.mapping = Mapping::unsigned_identity;
+    }
+
+    /// D and G where they are the result as they lie in registers: the final combiner would only
+    /// clamp what is below 0 or beyond 1.
+    [[nodiscard]] std::optional<Components> copied_by_final() const {
+        const auto& in = m_values.final_inputs;
+        const OperandValues &b = in[1], &c = in[2], &d = in[3], &g = in[6];
+        if (m_values.uses_color_sum || m_values.uses_final_product) return {};
+        if (!m_values.is_zero(b) || !m_values.is_zero(c)) return {};
+        const Components values{d.value[0], d.value[1], d.value[2], g.value[0]};
+        const bool as_they_are = d.mapping == Mapping::unsigned_identity &&
+                                 g.mapping == Mapping::unsigned_identity &&
+                                 std::ranges::all_of(values, [this](Value v) {
+                                     return m_positive.contains(v) || code_of(v).has_value();
+                                 });
+        if (!as_they_are) return {};
+        return values;
+    }
+
     void read_final() {
         at(Register::const0) = constant(m_program.const0);
         at(Register::const1) = constant(m_program.const1);
@@ -240,6 +275,7 @@ class ValueBuilder {
             m_values.uses_final_product |= inputs[i]->reg == Register::final_product;
         }
         m_values.final_inputs[6] = read(f.g, true);
+        if (f.g.mapping == Mapping::unsigned_invert) complement(m_values.final_inputs[6]);
         if (!m_values.uses_final_product)
             m_values.final_inputs[4] = m_values.final_inputs[5] = read({}, false);
         const Components &spare0 = at(Register::spare0), &secondary = at(Register::col1);
@@ -320,6 +356,7 @@ class ValueBuilder {
     const CombinerProgram& m_program;
     std::uint32_t m_textured;
     int m_one;
+    std::set<Value> m_positive;  // inputs that lie within [0, 1]
     std::array<Components, kRegisterCount> m_registers;
     ProgramValues m_values;
 };

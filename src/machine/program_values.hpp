@@ -54,7 +54,9 @@ struct ProgramValues {
     std::array<OperandValues, 7> final_inputs;  ///< A .. G
     std::array<OperandValues, 2> color_sum;     ///< spare0, col1
     bool uses_color_sum = false, uses_final_product = false;
-    std::optional<Components> shown;  ///< a register that is the result instead of the combiner's
+    /// The result as it lies in registers, instead of the final combiner's: one register that is
+    /// asked for, or those that it would only copy.
+    std::optional<Components> shown;
 
     /// What an operation reads.
     template <class F>

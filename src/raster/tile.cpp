@@ -31,19 +31,18 @@ TileVisibility::TileVisibility()
       m_id(kTilePixels + 1),
       m_pixels(kTilePixels + kPixelSlack) {}
 
-void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth,
-                           const KernelTable& kernels) {
+void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth) {
     m_tile_x = x;
     m_tile_y = y;
     m_frame = frame;
     m_triangles.clear();
     m_drawn.clear();
     if (depth == nullptr) {
-        constexpr auto kFar = std::bit_cast<std::uint32_t>(1.0F);
-        kernels.clear_words({m_depth.data(), kFar, kTilePixels});
+        m_blank_depths.set();
         std::fill(m_block_far.begin(), m_block_far.end(), 1.0F);
         return;
     }
+    m_blank_depths = {};
     std::copy_n(depth, kTilePixels, m_depth.begin());
     for (std::size_t block = 0; block < kTileBlocks; ++block) {
         const auto first = m_depth.begin() + static_cast<std::ptrdiff_t>(block * kBlockPixels);
@@ -53,7 +52,7 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
 
 void TileVisibility::draw(const Chunk& chunk, std::span<const DepthRule> rules,
                           const KernelTable& kernels) {
-    if (!shows_anything()) kernels.clear_words({m_id.data(), kNoTriangle, kTilePixels});
+    if (!shows_anything()) m_blank_ids.set();
     draw_entries(chunk, rules, kernels, m_id.data());
 }
 
@@ -71,11 +70,17 @@ void TileVisibility::draw_entries(const Chunk& chunk, std::span<const DepthRule>
         const auto last = std::find_if(
             first, entries.end(), [&](const TileEntry& entry) { return size_of(entry) != size; });
         const std::span<const TileEntry> alike(first, last);
-        if (size == Size::large) {
-            draw_large(chunk, alike, rules, kernels, id);
-        } else {
-            draw_listed(size == Size::tiny ? kernels.rasterize_tiny : kernels.rasterize_small,
-                        chunk, alike, rules, id);
+        if (size != Size::small || id == nullptr) fill_depths(kernels);
+        if (size != Size::small && id != nullptr) fill_ids(kernels);
+        switch (size) {
+            case Size::tiny:
+                draw_listed(kernels.rasterize_tiny, chunk, alike, rules, id);
+                break;
+            case Size::small:
+                draw_listed(kernels.rasterize_small, chunk, alike, rules, id);
+                break;
+            case Size::large:
+                draw_large(chunk, alike, rules, kernels, id);
         }
         first = last;
     }
@@ -96,7 +101,9 @@ void TileVisibility::draw_listed(void (*rasterize)(const RasterizeEntriesCtx&) n
                             m_depth.data(),
                             id,
                             m_block_far.data(),
-                            nullptr};
+                            nullptr,
+                            m_blank_depths.flags.data(),
+                            m_blank_ids.flags.data()};
     if (id != nullptr) {
         const std::size_t first = m_triangles.size();
         for (const TileEntry& entry : entries) m_triangles.push_back(triangles + entry.triangle);
@@ -147,7 +154,30 @@ void TileVisibility::hide_outside() {
     }
 }
 
+/// Fills blank blocks, neighbours at once.
+void TileVisibility::fill(BlankBlocks& blank, void* tile, std::uint32_t value,
+                          const KernelTable& kernels) {
+    if (!blank.any) return;
+    auto* const words = static_cast<std::uint32_t*>(tile);
+    const auto begin = blank.flags.begin(), last = blank.flags.end();
+    for (auto first = std::find(begin, last, 1); first != last;) {
+        const auto end = std::find(first, last, 0);
+        kernels.clear_words({words + (first - begin) * kBlockPixels, value,
+                             static_cast<int>(end - first) * kBlockPixels});
+        first = std::find(end, last, 1);
+    }
+    blank = {};
+}
+
+void TileVisibility::fill_depths(const KernelTable& kernels) {
+    fill(m_blank_depths, m_depth.data(), std::bit_cast<std::uint32_t>(1.0F), kernels);
+}
+void TileVisibility::fill_ids(const KernelTable& kernels) {
+    fill(m_blank_ids, m_id.data(), kNoTriangle, kernels);
+}
+
 TileFragments TileVisibility::collect(const KernelTable& kernels) {
+    fill_ids(kernels);
     hide_outside();
     m_first.resize(m_triangles.size() + 2);
     kernels.collect({m_id.data(), m_drawn.data(), static_cast<int>(m_triangles.size()),
@@ -165,6 +195,7 @@ bool TileVisibility::cover(const SetupTriangle& triangle, const DepthRule& rule,
                            const KernelTable& kernels, PixelMask& passed) {
     TileTriangle seen;
     if (!tile_triangle(triangle, m_tile_x, m_tile_y, seen)) return false;
+    fill_depths(kernels);
     set_rule(rule, seen);
     kernels.cover({&seen, m_depth.data(), m_block_far.data(), passed.word.data(), &passed.blocks});
     return passed.blocks != 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,8 +26,7 @@ class TileVisibility {
 
     /// Starts tile (x, y): nothing visible, depth 1 everywhere or, if `depth` is not null, as saved
     /// by an earlier round (kTilePixels floats).
-    void begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth,
-               const KernelTable& kernels);
+    void begin(std::int32_t x, std::int32_t y, FrameSize frame, const float* depth);
 
     /// Draws the chunk's triangles in this tile, in order. `rules` belong to the draws.
     void draw(const Chunk& chunk, std::span<const DepthRule> rules, const KernelTable& kernels);
@@ -47,6 +47,9 @@ class TileVisibility {
     bool cover(const SetupTriangle& triangle, const DepthRule& rule, const KernelTable& kernels,
                PixelMask& passed);
 
+    /// All depths are in place, until more is drawn.
+    void finish(const KernelTable& kernels) { fill_depths(kernels); }
+
     [[nodiscard]] float* depth() { return m_depth.data(); }
     [[nodiscard]] const float* depth() const { return m_depth.data(); }
     [[nodiscard]] float* block_far() { return m_block_far.data(); }
@@ -63,12 +66,28 @@ class TileVisibility {
                     std::span<const DepthRule> rules, const KernelTable& kernels,
                     std::uint32_t* id);
     void hide_outside();
+    struct BlankBlocks;
+    static void fill(BlankBlocks& blank, void* tile, std::uint32_t value,
+                     const KernelTable& kernels);
+    void fill_depths(const KernelTable& kernels);
+    void fill_ids(const KernelTable& kernels);
 
     std::int32_t m_tile_x = 0, m_tile_y = 0;
     FrameSize m_frame{};
     AlignedVector<float> m_depth,
         m_block_far;                    ///< of depths one more, as RasterizeEntriesCtx has it
     AlignedVector<std::uint32_t> m_id;  ///< likewise
+    /// Blocks that are not written yet, as RasterizeEntriesCtx has it: stores that clear a tile
+    /// would wait for those of the tile before, which are on their way to the frame.
+    struct BlankBlocks {
+        void set() {
+            flags.fill(1);
+            any = true;
+        }
+        std::array<std::uint8_t, kTileBlocks> flags{};
+        bool any = false;  ///< maybe
+    };
+    BlankBlocks m_blank_depths, m_blank_ids;
     std::vector<const SetupTriangle*> m_triangles;  ///< the visibility buffer holds indices
     std::vector<std::uint64_t> m_drawn;             ///< per triangle, as RasterizeCtx has it
     std::vector<std::uint32_t> m_first;             ///< of TileFragments

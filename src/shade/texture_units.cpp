@@ -530,6 +530,10 @@ UnitStates unit_states(const ProgramMaterial& material, const Machine& machine) 
         if (is_dimmed(op)) states.bounded &= ~bit;
         if (texel) {
             states.enabled |= bit;
+            const bool is_unsigned =
+                sampled_target(op) && !is_dimmed(op) &&
+                format_class(material.units[i]->format()) == TexelClass::unsigned_rgba;
+            if (is_unsigned) states.positive |= bit;
         } else if (op != Op::none ||
                    (material.texture_shader && i < material.texture_shader->units.size())) {
             states.black |= bit;
