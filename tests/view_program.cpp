@@ -181,7 +181,7 @@ TEST_F(ViewProgram, RegistersAreExplained) {
     EXPECT_EQ(inputs(Fineness::within_budget), "") << "while a hand moves there is no time";
     const std::string text = inputs(Fineness::full);
     EXPECT_SAYS(text, "col0.rgb  light_tangent\n");
-    EXPECT_SAYS(text, "tex1.rgb  X = (t / alpha_x)\n");
+    EXPECT_SAYS(text, "tex1 rgb  X = (t / alpha_x)\n");
     EXPECT_SAYS(text, "dot(v, n) = 0 .. 1\n");
     EXPECT_EQ(inputs(Fineness::within_budget), text);
 }
