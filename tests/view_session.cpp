@@ -260,15 +260,15 @@ TEST_F(ViewSession, ABadProgramLeavesTheLastGoodOne) {
     session.edit_of("flat").combiners = good;
     const std::optional<Wish> first = session.wish(false);
     ASSERT_TRUE(first);
-    EXPECT_TRUE(session.program_errors.empty());
+    EXPECT_TRUE(session.program_errors().empty());
     const Material& edited = *first->scene->objects[0].material;
     EXPECT_NE(edited.program->combiners, session.loaded().objects[0].material->program->combiners);
 
     session.edit_of("flat").combiners = "!!RC1.0\n{ rgb { spare0 = col0 * ; } }\n";
     const std::optional<Wish> second = session.wish(false);
     ASSERT_TRUE(second);
-    ASSERT_EQ(session.program_errors.size(), 1U);
-    EXPECT_EQ(session.program_errors[0].line, 2U);
+    ASSERT_EQ(session.program_errors().size(), 1U);
+    EXPECT_EQ(session.program_errors()[0].line, 2U);
     EXPECT_EQ(second->scene->objects[0].material, first->scene->objects[0].material);
 
     session.edit_of("flat").combiners = good;

@@ -171,19 +171,7 @@ material = "flat"
 
 /// The same for what a model is compiled to, of which there is no text but the panel's.
 TEST_F(ViewWindow, AModelsProgramIsEditedRepairedAndReverted) {
-    write(path("p.toml"), R"(schema = 1
-[output]
-width = 640
-height = 480
-[[materials]]
-name = "steel"
-kd = [0.3, 0.2, 0.1]
-[[lights]]
-direction = [0.0, 0.0, 1.0]
-[[objects]]
-shape = "sphere"
-material = "steel"
-)");
+    write(path("p.toml"), "schema = 1\n" + steel_sphere(640, 480, "[0.0, 0.0, 1.0]"));
     const glm::ivec3 wrong(255, 115, 102);
     Shot edited;
     show(path("p.toml"), [&](Hands& hands) {

@@ -160,6 +160,11 @@ class Renderer {
     /// Error{bad_option} with Machine::double_precision, which has formulas.
     ProgramMaterial program(const Scene& scene, std::size_t object);
 
+    /// Draws nothing and throws what render throws on account of the object of that number alone: a
+    /// ProgramFault where a part of its program is to blame. What it compiled the next frame need
+    /// not. Throws Error{bad_option} as program does.
+    void check(const Scene& scene, std::size_t object);
+
   private:
     FrameStats render_shown(const Scene& scene, Framebuffer& target,
                             const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
