@@ -103,6 +103,8 @@ struct Renderer::State {
           double_samples(options.double_samples),
           hooks{options.progress, options.stop} {
         pool.keep_account(account.get());
+        maps.models.stop = options.stop;
+        surfaces.stop = options.stop;
     }
 
     void prepare(const Scene& scene, const Framebuffer& target,

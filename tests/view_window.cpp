@@ -259,6 +259,24 @@ TEST_F(ViewWindow, DroppedFilesAndNeighboursAreOpened) {
     });
 }
 
+/// Where a picture cannot be written, as in a directory that is gone, the window says so until the
+/// next one can.
+TEST_F(ViewWindow, WhatAScreenshotSaidGoesWithTheNext) {
+    std::filesystem::create_directory(path("gone"));
+    show(sphere(), [&](Hands& hands) {
+        hands.resize(700, 400);
+        const glm::ivec3 wrong(150, 30, 30);
+        EXPECT_EQ(count(hands.window_shot().image, wrong, 25), 0);
+        std::filesystem::current_path(path("gone"));
+        std::filesystem::remove(path("gone"));
+        hands.key("F12");
+        Hands::pause(1000);
+        std::filesystem::current_path(directory());
+        EXPECT_GT(count(hands.window_shot().image, wrong, 25), 200) << "nobody was told";
+        EXPECT_EQ(count(hands.window_shot().image, wrong, 25), 0) << "it stays";
+    });
+}
+
 /// False if it does not come true within a minute.
 template <class Condition>
 bool wait_for(const Condition& condition) {

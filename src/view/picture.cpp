@@ -235,8 +235,11 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
         m_programs = {};
     if (!traced || fineness != Fineness::full) return picture;
     try {
-        picture.trace =
-            std::make_shared<const PixelTrace>(trace_pixel(*traced, wish.pixel->x, wish.pixel->y));
+        picture.trace = std::make_shared<const PixelTrace>(
+            trace_pixel(*traced, wish.pixel->x, wish.pixel->y, m_stop));
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::stopped) throw;
+        picture.trace_error = error.what();
     } catch (const std::exception& error) {
         picture.trace_error = complaint(error);
     }
@@ -250,6 +253,16 @@ std::vector<ProgramError> misfits_of(const Picture& picture) {
             if (std::find(all.begin(), all.end(), misfit) == all.end()) all.push_back(misfit);
     }
     return all;
+}
+
+bool are_compiled_alike(const Wish& a, const Wish& b) {
+    const auto has_material = [](const Object& x, const Object& y) {
+        return x.material == y.material;
+    };
+    const auto has_machine = [](const Pane& x, const Pane& y) { return x.machine == y.machine; };
+    return std::equal(a.scene->objects.begin(), a.scene->objects.end(), b.scene->objects.begin(),
+                      b.scene->objects.end(), has_material) &&
+           std::equal(a.panes.begin(), a.panes.end(), b.panes.begin(), b.panes.end(), has_machine);
 }
 
 std::optional<Fineness> finer(const Wish& wish, const Picture& picture) {

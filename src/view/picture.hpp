@@ -117,6 +117,9 @@ class PictureMaker {
     std::uint64_t m_truth_id = 0;  ///< of its wish
 };
 
+/// Whether the models of both are compiled from the same materials for the same machines.
+bool are_compiled_alike(const Wish& a, const Wish& b);
+
 /// What comes after `picture` while nothing moves. Pictures of several samples are for machines:
 /// they would hide errors in a heat map, and double precision takes seconds for them.
 std::optional<Fineness> finer(const Wish& wish, const Picture& picture);
