@@ -381,7 +381,10 @@ TEST_F(ViewSession, SplitPictureHasEachMachinesColumns) {
 }
 
 TEST_F(ViewSession, ErrorMapOfDoubleItselfIsBlack) {
-    scene("[[lights]]\ndirection = [0.3, 0.8, 0.5]\n[[objects]]\nshape = \"sphere\"\n");
+    // A light that leads beyond what a frame shows.
+    scene(
+        "[[lights]]\ndirection = [0.3, 0.8, 0.5]\nintensity = 4.0\n"
+        "[[objects]]\nshape = \"sphere\"\n");
     Session session(loader());
     session.open(path("s.toml"));
     session.state.width = session.state.height = 32;

@@ -66,6 +66,10 @@ std::vector<MaterialProgram> MaterialPrograms::of(Renderer& renderer, const Scen
         MaterialProgram& program = programs.emplace_back();
         program.material = material->name;
         std::string& inputs = m_inputs[material->name];
+        if (scene.machine.double_precision) {
+            program.error = "double precision works by formulas; a machine has a program here";
+            continue;
+        }
         try {
             program.text = print_combiners(renderer.program(scene, i).combiners);
             if (anew) inputs = inputs_text(m_models, scene, material);

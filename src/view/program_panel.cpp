@@ -166,10 +166,14 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
 
 }  // namespace
 
+float program_panel_width() {
+    return std::min(620.0F, 0.6F * ImGui::GetIO().DisplaySize.x);
+}
+
 void program_panel(Session& session, const Picture* picture) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(display.x, 0.0F), ImGuiCond_FirstUseEver, ImVec2(1.0F, 0.0F));
-    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.55F * display.y),
+    ImGui::SetNextWindowSize(ImVec2(program_panel_width(), 0.55F * display.y),
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("program")) {
         if (picture != nullptr) {
