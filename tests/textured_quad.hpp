@@ -35,6 +35,13 @@ inline TexturePtr make_texture(const std::vector<Image8>& images, TextureDescrip
     return std::make_shared<const Texture>(std::span<const Image8>(images), description);
 }
 
+inline Sampler filtered(Filter filter, float lod_bias = 0.0F) {
+    Sampler sampler;
+    sampler.filter = filter;
+    sampler.lod_bias = lod_bias;
+    return sampler;
+}
+
 /// (s, t, r, q) of the upper left, upper right, lower right and lower left corner.
 using Corners = std::array<glm::vec4, 4>;
 

@@ -19,6 +19,7 @@
 #include "raster/bin.hpp"
 #include "raster/tile.hpp"
 #include "shade/normalisation_cube.hpp"
+#include "trace/coded_planes.hpp"
 #include "trace/exact_inputs.hpp"
 
 namespace burnish::lab {

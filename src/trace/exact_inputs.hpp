@@ -25,9 +25,6 @@ struct InputRounding {
     const TableGrid* grid = nullptr;  ///< of models' tables; null: as TableGrid is made
 };
 
-/// Register planes that hold x/2 + 1/2, since `program` or a texture unit expands them.
-std::vector<bool> coded_planes(const LightShading& shading, const CombinerProgram& program);
-
 /// What the attributes stage and the input operations of a shading mean, in double precision for
 /// one fragment: attributes from the vertices' own, light without rounding, filter weights of any
 /// fineness, colours that are not coded. Numbers are rounded where `rounding` says so.

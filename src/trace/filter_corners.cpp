@@ -3,14 +3,11 @@
 #include "core/aligned.hpp"
 #include "kernels/kernel_table.hpp"
 #include "machine/interpreter.hpp"
+#include "trace/mix.hpp"
 
 namespace burnish {
 
 namespace {
-
-double mix(double a, double b, double weight) {
-    return a + (b - a) * weight;
-}
 
 /// The mean of four corners in one level.
 double exact_mean(std::span<const TracedFragment> corners, std::size_t c) {
