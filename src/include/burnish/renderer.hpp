@@ -38,9 +38,9 @@ struct RendererOptions {
     /// calls, several at a time.
     std::function<void(std::size_t done, std::size_t total)> progress = {};
     /// Asked before every tile and every longer step before them, down to each row of texels where
-    /// mip levels and the maps of a model's program are made: true gives the frame up, render throws
-    /// Error{stopped} as soon as the tiles that were begun are done. Any worker asks, several at a
-    /// time; it must not throw.
+    /// mip levels and the maps of a model's program are made: true gives the frame up, render
+    /// throws Error{stopped} as soon as the tiles that were begun are done. Any worker asks,
+    /// several at a time; it must not throw.
     std::function<bool()> stop = {};
 };
 
