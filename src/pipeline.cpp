@@ -73,6 +73,15 @@ void require_machine(const Scene& scene, const char* shown) {
                             shown));
 }
 
+void require_program_of(const Scene& scene, std::size_t object) {
+    require_machine(scene, "a program");
+    scene.machine.validate();
+    if (object >= scene.objects.size())
+        throw Error(ErrorCode::bad_option,
+                    fmt::format("object {} of a scene that has {}, counted from 0", object,
+                                scene.objects.size()));
+}
+
 void require_colors(const Framebuffer& target, const char* shown) {
     if (target.format() != PixelFormat::depth32f) return;
     throw Error(ErrorCode::bad_option,
@@ -94,6 +103,8 @@ struct Renderer::State {
           double_samples(options.double_samples),
           hooks{options.progress, options.stop} {
         pool.keep_account(account.get());
+        maps.models.stop = options.stop;
+        surfaces.stop = options.stop;
     }
 
     void prepare(const Scene& scene, const Framebuffer& target,
@@ -141,6 +152,13 @@ struct Renderer::State {
     DerivedMaps maps;
     std::size_t programs_asked = 0;  ///< since maps were swept
     HalfVectorCube half_cube;
+
+    FrameView view_of(const Scene& scene, const FrameSize& of_size) {
+        return {.scene = &scene,
+                .view = make_view(scene.camera, of_size.width, of_size.height),
+                .viewport = make_viewport(scene.machine, of_size.width, of_size.height),
+                .half_cube = half_cube.of(scene.machine)};
+    }
 
     void sweep_maps(int frames) {
         maps.drop_unused(frames);
@@ -202,18 +220,20 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) 
 }
 
 ProgramMaterial Renderer::program(const Scene& scene, std::size_t object) {
-    require_machine(scene, "a program");
-    scene.machine.validate();
-    if (object >= scene.objects.size())
-        throw Error(ErrorCode::bad_option,
-                    fmt::format("object {} of a scene that has {}, counted from 0", object,
-                                scene.objects.size()));
+    require_program_of(scene, object);
     // Without frames between them nobody else forgets: all objects once are as a frame.
     if (m_state->programs_asked >= scene.objects.size()) m_state->sweep_maps(2);
     ++m_state->programs_asked;
     Object own = scene.objects[object];
     own.edited = nullptr;
     return program_of(own, scene, 0, m_state->maps);
+}
+
+void Renderer::check(const Scene& scene, std::size_t object) {
+    require_program_of(scene, object);
+    Draw draw;
+    prepare_draw(draw, m_state->view_of(scene, {scene.width, scene.height}), scene.objects[object],
+                 m_state->maps);
 }
 
 /// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
@@ -269,13 +289,10 @@ void Renderer::State::prepare(const Scene& scene, const Framebuffer& target,
                               TileWatch& watch) {
     scene.machine.validate();
     size = {target.width(), target.height()};
-    frame = {&scene,
-             make_view(scene.camera, size.width, size.height),
-             make_viewport(scene.machine, size.width, size.height),
-             shown,
-             aov,
-             target.format(),
-             half_cube.of(scene.machine)};
+    frame = view_of(scene, size);
+    frame.shown = shown;
+    frame.aov = aov;
+    frame.format = target.format();
     while (draws.size() < scene.objects.size()) draws.push_back(std::make_unique<Draw>());
     draws.resize(scene.objects.size());
     ranges.clear();

@@ -8,6 +8,7 @@
 
 #include "tests/json.hpp"
 #include "tests/run_command.hpp"
+#include "tests/steel_scene.hpp"
 
 namespace burnish {
 namespace {
@@ -252,19 +253,7 @@ vertices = [
 }
 
 TEST_F(Command, ProfileDoubleTakesManySamplesAndShowsColoursOnly) {
-    write(path("ball.toml"), R"(schema = 1
-[output]
-width = 32
-height = 32
-[[lights]]
-direction = [0, 0, 1]
-[[materials]]
-name = "m"
-model = "abp_modified"
-[[objects]]
-shape = "sphere"
-material = "m"
-)");
+    write(path("ball.toml"), "schema = 1\n" + steel_sphere(32, 32, "[0, 0, 1]"));
     const std::string ball = "render ball.toml -o ball.png ";
     ASSERT_EQ(run(ball + "--machine double").code, 0);
     const Image8 one = load_image(path("ball.png"));

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
+#include <burnish/error.hpp>
 #include <burnish/materials.hpp>
 #include <burnish/renderer.hpp>
 #include <burnish/shapes.hpp>
+#include <burnish/trace.hpp>
 
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 #include "models/layer.hpp"
 #include "models/mips/parameter_mips.hpp"
@@ -247,6 +251,49 @@ TEST(MaterialMipmaps, LevelsAreNearerToTheTruthThanNone) {
     EXPECT_LT(rms_difference(drawn(probed), truth), moments);
     probed = floor(weave(MaterialMipmaps{MipMethod::box, 0, 16}, 128));
     EXPECT_LT(rms_difference(drawn(probed), truth), 0.9 * box) << "the machine's";
+}
+
+/// What a call leaves, should it be stopped.
+template <class Call>
+bool was_stopped(const Call& call) {
+    try {
+        call();
+        return false;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::stopped) << error.what();
+        return true;
+    }
+}
+
+// Maps of 64 rows have 63 more in their levels, and a machine's program goes twice through all 127:
+// the caller is asked at each. A stopped frame leaves the next one's bits alone.
+TEST(MaterialMipmaps, MakingThemEndsWhenNobodyWantsThem) {
+    Scene scene = floor(weave(MaterialMipmaps{MipMethod::moments}, 64));
+    scene.width = 64;
+    scene.height = 48;
+    for (const auto& [profile, rows] :
+         {std::pair{"double", 63}, std::pair{"ideal", 63 + 2 * 127}}) {
+        scene.machine = machine_profile(profile);
+        const Framebuffer want = drawn(scene);
+        Framebuffer got(64, 48, PixelFormat::rgba32f);
+        int asked = 0, last = std::numeric_limits<int>::max();
+        const RendererOptions options{.threads = 1, .stop = [&] { return ++asked >= last; }};
+        Renderer(options).render(scene, got);
+        EXPECT_GE(asked, rows) << profile;
+        for (int fifth = 0; fifth < 5; ++fifth) {
+            Renderer renderer(options);
+            asked = 0;
+            last = 1 + fifth * rows / 5;
+            EXPECT_TRUE(was_stopped([&] { renderer.render(scene, got); })) << last;
+            EXPECT_EQ(asked, last) << "it went on";
+            last = std::numeric_limits<int>::max();
+            renderer.render(scene, got);
+            EXPECT_EQ(rms_difference(got, want), 0.0) << profile << ", " << fifth;
+        }
+    }
+    int asked = 0;
+    EXPECT_TRUE(was_stopped([&] { trace_pixel(scene, 32, 40, [&] { return ++asked >= 100; }); }));
+    EXPECT_EQ(asked, 100);
 }
 
 class SceneMipmaps : public SceneFile {

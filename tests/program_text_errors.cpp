@@ -207,6 +207,49 @@ TEST(ProgramTextErrors, ParsingGoesOn) {
               "7:9: color_sum as alpha, it has only rgb\n");
 }
 
+/// A right text with '@' in front of what the machine lacks: validate() names the part that has its
+/// line.
+void expect_fault(std::string text, const Machine& machine, std::string_view part) {
+    const std::size_t at = text.find('@');
+    text.erase(at, 1);
+    const auto before = text.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto line = static_cast<std::size_t>(std::count(text.begin(), before, '\n')) + 1;
+    const Parsed<CombinerProgram> parsed = parse_combiners(text);
+    ASSERT_TRUE(parsed.program) << text << "\n" << listed(parsed.errors);
+    try {
+        parsed.program->validate(machine);
+        ADD_FAILURE() << text;
+    } catch (const ProgramFault& fault) {
+        EXPECT_EQ(line_of(fault.place(), parsed.lines), line) << text << "\n" << fault.what();
+        EXPECT_NE(std::string_view(fault.what()).find(part), std::string_view::npos)
+            << fault.what();
+    }
+}
+
+TEST(ProgramTextErrors, WhatAMachineLacksHasALine) {
+    const Machine old = machine_profile("geforce256"), nv2a = machine_profile("nv2a");
+    Machine small = machine_profile("ideal");
+    small.texture_units = 8;
+    const std::string idle = "{ rgb { spare0 = zero; } }\n";
+    expect_fault("!!RC1.0\n" + idle + idle + "\n@" + idle, old, "3 general stages");
+    expect_fault("!!RC1.0\n" + idle + "{\n@const1 = (0, 0, 0, 1);\nrgb { spare0 = const1; } }\n",
+                 old, "stage 1: has constants of its own");
+    expect_fault("!!BRN1.0\n{ alpha { spare0 = zero; }\n @wide rgb { spare0 = zero; } }\n", nv2a,
+                 "stage 0, rgb: wide");
+    expect_fault("!!BRN1.0\n@fetch { tex1 = table_1d(tex0.r); }\n" + idle, nv2a, "stage 0, fetch");
+    expect_fault("!!BRN1.0\nfetch {\ntex1 = table_1d(tex0.r);\n}\n" + idle +
+                     "fetch { tex2 = table_1d(tex0.r);\n@tex9 = table_1d(tex8.r); }\n" + idle,
+                 small, "stage 1, fetch: writes tex9");
+    expect_fault(in_rgb("discard = tex0;\n@discard = tex3;\nspare0 = sum();"), old, "reads tex3");
+    expect_fault(in_rgb("discard = tex0;\ndiscard = tex1;\n@tex3 = sum();"), old, "writes tex3");
+    expect_fault(in_alpha("spare0 = zero;\n@spare1 = tex2.a;"), old, "reads tex2");
+    expect_fault("!!RC1.0\n" + idle + "final_product = tex0\n* tex0;\n@out.rgb = tex2;\n", old,
+                 "final combiner: reads tex2");
+    expect_fault("!!RC1.0\n@final_product = tex0 * tex2;\nout.rgb = final_product;\n", old,
+                 "final combiner: reads tex2");
+    expect_fault("!!RC1.0\nout.rgb = tex0;\n@out.a = tex2;\n", old, "final combiner: reads tex2");
+}
+
 TEST(ProgramTextErrors, ThirtyTwoAreEnough) {
     std::string text = "!!RC1.0\n";
     for (int i = 0; i < 100; ++i) text += "foo;\n";

@@ -16,6 +16,7 @@
 
 #include "tests/display.hpp"
 #include "tests/scratch_directory.hpp"
+#include "tests/steel_scene.hpp"
 #include "view/view.hpp"
 
 namespace burnish::view {
@@ -180,15 +181,10 @@ class ViewWindow : public ScratchDirectory {
         show(std::move(request), steps);
     }
 
-    /// A sphere of brushed steel in a window of 320 x 240 pixels.
+    /// A sphere in a window of 320 x 240 pixels.
     std::filesystem::path sphere(const std::string& more = "") {
         const std::filesystem::path file = path("sphere.toml");
-        write(file,
-              "schema = 1\n[output]\nwidth = 320\nheight = 240\n"
-              "[[lights]]\ndirection = [0.3, 0.8, 0.5]\n"
-              "[[materials]]\nname = \"m\"\nkd = [0.3, 0.2, 0.1]\n"
-              "[[objects]]\nshape = \"sphere\"\nmaterial = \"m\"\n" +
-                  more);
+        write(file, "schema = 1\n" + steel_sphere(320, 240) + more);
         return file;
     }
 };

@@ -8,6 +8,7 @@
 
 #include "lab/stage_bits.hpp"
 #include "tests/scene_file.hpp"
+#include "tests/steel_scene.hpp"
 #include "view/load_thread.hpp"
 #include "view/session.hpp"
 
@@ -15,19 +16,7 @@
 namespace burnish::view {
 namespace {
 
-constexpr const char* kSphere = R"(
-[output]
-width = 48
-height = 32
-[[materials]]
-name = "steel"
-kd = [0.3, 0.2, 0.1]
-[[objects]]
-shape = "sphere"
-material = "steel"
-[[lights]]
-direction = [0.3, 0.8, 0.5]
-)";
+const std::string kSphere = steel_sphere(48, 32);
 
 using ViewProgram = SceneFile;
 
@@ -104,7 +93,7 @@ TEST_F(ViewProgram, ATextThatMeansTheSameDrawsTheSame) {
                                                         {"ideal", Model::abp_modified},
                                                         {"nv2a", Model::ward},
                                                         {"ideal", Model::ward}};
-    scene(std::string(kSphere) +
+    scene(kSphere +
           "color = [0.9, 0.8, 0.7]\n[[lights]]\n"
           "direction = [-1.0, 0.2, 0.4]\ncolor = [0.7, 0.9, 0.8]\n");
     for (const auto& [machine, model] : kCases) {
@@ -155,15 +144,15 @@ TEST_F(ViewProgram, AnErrorLeavesTheLastRightTextAndRevertTheModels) {
     session.edit_of("steel").combiners = text + "out.rgb = col2;\n";
     const std::optional<Wish> wrong = session.wish(false);
     ASSERT_TRUE(wrong);
-    ASSERT_FALSE(session.program_errors.empty());
-    EXPECT_EQ(session.program_errors[0].line,
+    ASSERT_FALSE(session.program_errors().empty());
+    EXPECT_EQ(session.program_errors()[0].line,
               static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
     EXPECT_EQ(wrong->scene->objects[0].edited, right);
     EXPECT_EQ(wrong->scene->objects[0].material, session.loaded().objects[0].material)
         << "textures would be made again";
     session.edit_of("steel").combiners = text;
     EXPECT_TRUE(session.wish(false)->scene->objects[0].edited);
-    EXPECT_TRUE(session.program_errors.empty());
+    EXPECT_TRUE(session.program_errors().empty());
     session.revert_program("steel");
     EXPECT_FALSE(session.wish(false)->scene->objects[0].edited);
     EXPECT_EQ(session.find_edit("steel"), nullptr);
@@ -181,7 +170,7 @@ TEST_F(ViewProgram, RegistersAreExplained) {
     EXPECT_EQ(inputs(Fineness::within_budget), "") << "while a hand moves there is no time";
     const std::string text = inputs(Fineness::full);
     EXPECT_SAYS(text, "col0.rgb  light_tangent\n");
-    EXPECT_SAYS(text, "tex1.rgb  X = (t / alpha_x)\n");
+    EXPECT_SAYS(text, "tex1 rgb  X = (t / alpha_x)\n");
     EXPECT_SAYS(text, "dot(v, n) = 0 .. 1\n");
     EXPECT_EQ(inputs(Fineness::within_budget), text);
 }
@@ -199,7 +188,7 @@ TEST_F(ViewProgram, AStateBringsTheEditBack) {
     // One that somebody wrote by hand.
     again.edit_of("steel").compiled.reset();
     EXPECT_TRUE(again.wish(false));
-    EXPECT_SAYS(again.program_errors.at(0).message, "compiled_text");
+    EXPECT_SAYS(again.program_errors().at(0).message, "compiled_text");
     write(path("bad.toml"),
           "schema = 1\ninput = \"s.toml\"\n[[materials]]\nname = \"a\"\ncompiled_text = \"\"\n");
     EXPECT_SAYS(complaint_of([&] { load_view_state(path("bad.toml")); }), "'combiners_text'");
@@ -207,7 +196,7 @@ TEST_F(ViewProgram, AStateBringsTheEditBack) {
 
 /// Nobody opened a panel: a line says what a state asks for in vain.
 TEST_F(ViewProgram, EditsThatChangeNothingSayWhy) {
-    scene(std::string(kSphere) +
+    scene(kSphere +
           "[[materials]]\nname = \"flat\"\ncombiners_text = '''!!RC1.0\n"
           "{ rgb { spare0 = col0 * col0; } }\nout.rgb = spare0; out.a = zero;\n'''\n"
           "[[objects]]\nshape = \"cube\"\nmaterial = \"flat\"\n");
@@ -232,15 +221,22 @@ TEST_F(ViewProgram, EditsThatChangeNothingSayWhy) {
     EXPECT_EQ(messages().size(), 2U) << "the panel has it at its line";
 }
 
-/// On a machine for which the model is another program, or that cannot run the edited one, the
-/// model's own is drawn and a note says why.
-TEST_F(ViewProgram, WhatDoesNotFitGivesWayToTheModels) {
+/// The only edited program that gave way; empty: none did.
+std::string misfit(const Picture& picture) {
+    const std::vector<ProgramError> all = misfits_of(picture);
+    EXPECT_LE(all.size(), 1U);
+    return all.empty() ? "" : of_material(all[0]);
+}
+
+/// On a machine for which the model is another program, or that cannot run the edited one, another
+/// is drawn and a line says why.
+TEST_F(ViewProgram, WhatDoesNotFitGivesWay) {
     scene(kSphere);
     Session session = opened(path("s.toml"));
     edit(session, "steel", "out.rgb = ", kDiffuse);
     PictureMaker maker(draw_once, 1000.0);
     const Picture edited = maker.make(*session.wish(false), Fineness::full);
-    EXPECT_EQ(edited.panes[0].note, "");
+    EXPECT_EQ(misfit(edited), "");
 
     session.state.machine = "ideal";
     session.state.pixel = glm::ivec2(24, 12);
@@ -249,29 +245,107 @@ TEST_F(ViewProgram, WhatDoesNotFitGivesWayToTheModels) {
     own.objects[0].edited = nullptr;
     const Picture fallback = maker.make(*other, Fineness::full);
     EXPECT_EQ(fallback.panes[0].error, "");
-    EXPECT_SAYS(fallback.panes[0].note, "material 'steel'");
-    EXPECT_SAYS(fallback.panes[0].note, "'ideal'");
+    EXPECT_EQ(misfit(fallback),
+              "material 'steel', its text: the edited program was made of another one than "
+              "abp_modified is compiled to on 'ideal'; the model's own is drawn");
     EXPECT_TRUE(are_same(fallback.frame, drawn(own)));
     EXPECT_TRUE(fallback.trace) << fallback.trace_error;
 
     session.state.machine = "nv2a";
     const Picture back = maker.make(*session.wish(false), Fineness::full);
-    EXPECT_EQ(back.panes[0].note, "");
+    EXPECT_EQ(misfit(back), "");
     EXPECT_TRUE(are_same(back.frame, edited.frame));
 
     std::string& text = *session.edit_of("steel").combiners;
     text.replace(text.find("!!RC1.0"), 7, "!!BRN1.0");
-    text.insert(text.find('{'), "{ wide rgb { spare0 = col0; } }\n");
+    text.insert(text.find('{'), "{\nwide rgb { spare0 = col0; } }\n");
     const Picture wide = maker.make(*session.wish(false), Fineness::full);
-    EXPECT_TRUE(session.program_errors.empty());
-    EXPECT_SAYS(wide.panes[0].note, "9-bit registers");
+    EXPECT_TRUE(session.program_errors().empty());
+    EXPECT_EQ(misfit(wide),
+              "material 'steel', its text, line 3: stage 0, rgb: wide results, machine 'nv2a' has "
+              "9-bit registers; the last text that runs is drawn");
+    EXPECT_TRUE(are_same(wide.frame, edited.frame));
 
     session.state.split = true;
     const Picture split = maker.make(*session.wish(false), Fineness::full);
     for (const PaneReport& pane : split.panes) {
         EXPECT_EQ(pane.error, "");
-        EXPECT_EQ(pane.note.empty(), pane.machine == "double") << pane.machine;
+        EXPECT_EQ(pane.misfits.empty(), pane.machine == "double") << pane.machine;
     }
+
+    // A text that is no program leaves that one; its lines are not the text's.
+    session.state.split = false;
+    text += "garbage";
+    const Picture both = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_EQ(session.program_errors().size(), 1U);
+    EXPECT_EQ(misfits_of(both).at(0).line, 0U);
+    EXPECT_TRUE(are_same(both.frame, edited.frame));
+}
+
+constexpr const char* kTwoPipelines = R"(
+[machine]
+profile = "nv2a"
+[[materials]]
+name = "left"
+combiners_text = "!!RC1.0 out.rgb = zero; out.a = zero;"
+[[materials]]
+name = "right"
+combiners_text = "!!RC1.0 out.rgb = zero; out.a = zero;"
+[[objects]]
+shape = "sphere"
+material = "left"
+translate = [-0.6, 0, 0]
+[[objects]]
+shape = "sphere"
+material = "right"
+translate = [0.6, 0, 0]
+[[lights]]
+direction = [0.3, 0.8, 0.5]
+)";
+
+/// Of pipelines, which are drawn with the last text that ran, and of several materials only that
+/// one.
+TEST_F(ViewProgram, OneThatDoesNotFitLeavesTheOthers) {
+    scene(kTwoPipelines);
+    Session session = opened(path("s.toml"));
+    const auto with = [](const std::string& color) {
+        return "!!BRN1.0\nconst0 = (" + color + ");\nout.rgb = const0; out.a = zero;\n";
+    };
+    PictureMaker maker(draw_once, 1000.0);
+    session.edit_of("left").combiners = with("1, 0, 0, 0");
+    const Picture before = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_EQ(misfit(before), "");
+
+    const std::string wide =
+        "!!BRN1.0\n{\n  alpha { spare0 = zero; }\n  wide rgb { spare0 = zero; }\n}\n";
+    session.edit_of("left").combiners = wide;
+    session.edit_of("right").combiners = with("0, 0, 1, 0");
+    const Picture after = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_EQ(after.panes[0].error, "");
+    const std::vector<ProgramError> misfits = misfits_of(after);
+    ASSERT_EQ(misfits.size(), 1U);
+    EXPECT_EQ(misfits[0].material, "left");
+    EXPECT_EQ(misfits[0].line, 4U);
+    EXPECT_SAYS(misfits[0].message, "the last text that runs is drawn");
+    int red = 0, blue = 0, was_red = 0;
+    for (int i = 0; i < 48 * 32; ++i) {
+        const glm::ivec2 pixel{i % 48, i / 48};
+        was_red += channel(before.frame, pixel, 0) == 255 ? 1 : 0;
+        red += channel(after.frame, pixel, 0) == 255 ? 1 : 0;
+        blue += channel(after.frame, pixel, 2) == 255 ? 1 : 0;
+    }
+    EXPECT_GT(red, 50);
+    EXPECT_GT(blue, 50);
+    EXPECT_LE(std::abs(red - was_red), was_red / 4) << "but for what the other one covers";
+
+    // Nothing that ran is left once the edit is gone.
+    session.forget_edit("left");
+    (void)maker.make(*session.wish(false), Fineness::full);
+    session.edit_of("left").combiners = wide;
+    const Picture loaded = maker.make(*session.wish(false), Fineness::full);
+    EXPECT_SAYS(misfits_of(loaded).at(0).message, "what was loaded is drawn");
+    for (int i = 0; i < 48 * 32; ++i)
+        ASSERT_LT(channel(loaded.frame, {i % 48, i / 48}, 0), 255) << i;
 }
 
 TEST_F(ViewProgram, AMeshWithoutAMaterialHasTheDefaultOnesControls) {

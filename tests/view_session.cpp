@@ -260,15 +260,15 @@ TEST_F(ViewSession, ABadProgramLeavesTheLastGoodOne) {
     session.edit_of("flat").combiners = good;
     const std::optional<Wish> first = session.wish(false);
     ASSERT_TRUE(first);
-    EXPECT_TRUE(session.program_errors.empty());
+    EXPECT_TRUE(session.program_errors().empty());
     const Material& edited = *first->scene->objects[0].material;
     EXPECT_NE(edited.program->combiners, session.loaded().objects[0].material->program->combiners);
 
     session.edit_of("flat").combiners = "!!RC1.0\n{ rgb { spare0 = col0 * ; } }\n";
     const std::optional<Wish> second = session.wish(false);
     ASSERT_TRUE(second);
-    ASSERT_EQ(session.program_errors.size(), 1U);
-    EXPECT_EQ(session.program_errors[0].line, 2U);
+    ASSERT_EQ(session.program_errors().size(), 1U);
+    EXPECT_EQ(session.program_errors()[0].line, 2U);
     EXPECT_EQ(second->scene->objects[0].material, first->scene->objects[0].material);
 
     session.edit_of("flat").combiners = good;
@@ -381,7 +381,10 @@ TEST_F(ViewSession, SplitPictureHasEachMachinesColumns) {
 }
 
 TEST_F(ViewSession, ErrorMapOfDoubleItselfIsBlack) {
-    scene("[[lights]]\ndirection = [0.3, 0.8, 0.5]\n[[objects]]\nshape = \"sphere\"\n");
+    // A light that leads beyond what a frame shows.
+    scene(
+        "[[lights]]\ndirection = [0.3, 0.8, 0.5]\nintensity = 4.0\n"
+        "[[objects]]\nshape = \"sphere\"\n");
     Session session(loader());
     session.open(path("s.toml"));
     session.state.width = session.state.height = 32;

@@ -102,6 +102,37 @@ TEST(PictureThread, TheFirstPictureIsFinished) {
     EXPECT_EQ(drawn, 2) << "one for each wish";
 }
 
+/// What takes long without a use for the newest wish does not hold it up: its mip levels and
+/// programs are others. Of a wish that moves the camera alone they are the same, and it would wait
+/// again.
+TEST(PictureThread, AFirstPictureThatTakesLongMakesWayForOtherMaterials) {
+    for (const bool is_other : {true, false}) {
+        Bell pictures;
+        PictureThread* self = nullptr;
+        int drawn = 0;
+        PictureThread thread(
+            [&](Renderer& renderer, const Scene& scene, int, Framebuffer& target) {
+                if (++drawn > 1) return renderer.render(scene, target);
+                Wish newer = wish_number(2, true);
+                if (is_other) {
+                    auto other = std::make_shared<Scene>(*newer.scene);
+                    other->objects[0].material = std::make_shared<const Material>();
+                    newer.scene = other;
+                }
+                self->wish(std::move(newer));
+                const FrameStats stats = renderer.render(scene, target);
+                EXPECT_FALSE(is_other) << "it was finished";
+                return stats;
+            },
+            kBudgetMs, [&] { pictures.ring(); }, std::chrono::milliseconds(0));
+        self = &thread;
+        thread.wish(wish_number(1));
+        ASSERT_TRUE(pictures.wait_for(is_other ? 1 : 2));
+        EXPECT_EQ(thread.take()->id, 2U);
+        EXPECT_EQ(drawn, 2);
+    }
+}
+
 TEST(PictureThread, ItsEndEndsEvenTheFirst) {
     Bell begun;
     int pictures = 0;

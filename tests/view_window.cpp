@@ -171,19 +171,7 @@ material = "flat"
 
 /// The same for what a model is compiled to, of which there is no text but the panel's.
 TEST_F(ViewWindow, AModelsProgramIsEditedRepairedAndReverted) {
-    write(path("p.toml"), R"(schema = 1
-[output]
-width = 640
-height = 480
-[[materials]]
-name = "steel"
-kd = [0.3, 0.2, 0.1]
-[[lights]]
-direction = [0.0, 0.0, 1.0]
-[[objects]]
-shape = "sphere"
-material = "steel"
-)");
+    write(path("p.toml"), "schema = 1\n" + steel_sphere(640, 480, "[0.0, 0.0, 1.0]"));
     const glm::ivec3 wrong(255, 115, 102);
     Shot edited;
     show(path("p.toml"), [&](Hands& hands) {
@@ -268,6 +256,24 @@ TEST_F(ViewWindow, DroppedFilesAndNeighboursAreOpened) {
         EXPECT_GT(count(hands.window_shot().image, {150, 30, 30}, 25), 200) << "nobody was told";
         hands.key("Left");
         EXPECT_EQ(hands.shot().state.input, path("sphere.toml"));
+    });
+}
+
+/// Where a picture cannot be written, as in a directory that is gone, the window says so until the
+/// next one can.
+TEST_F(ViewWindow, WhatAScreenshotSaidGoesWithTheNext) {
+    std::filesystem::create_directory(path("gone"));
+    show(sphere(), [&](Hands& hands) {
+        hands.resize(700, 400);
+        const glm::ivec3 wrong(150, 30, 30);
+        EXPECT_EQ(count(hands.window_shot().image, wrong, 25), 0);
+        std::filesystem::current_path(path("gone"));
+        std::filesystem::remove(path("gone"));
+        hands.key("F12");
+        Hands::pause(1000);
+        std::filesystem::current_path(directory());
+        EXPECT_GT(count(hands.window_shot().image, wrong, 25), 200) << "nobody was told";
+        EXPECT_EQ(count(hands.window_shot().image, wrong, 25), 0) << "it stays";
     });
 }
 

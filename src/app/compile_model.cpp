@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <burnish/materials.hpp>
@@ -59,13 +58,6 @@ int pass_count(const CompiledModel& compiled) {
 
 int map_count(const ModelNeeds& needs) {
     return needs.units - needs.tables - (needs.third_vector ? 1 : 0);
-}
-
-int unit_of(const LayerQuantity& quantity, const CompiledModel& compiled) {
-    if (!quantity.texture) return -1;
-    const std::vector<TexturePtr>& units = compiled.program.units;
-    return static_cast<int>(std::find(units.begin(), units.end(), quantity.texture) -
-                            units.begin());
 }
 
 std::vector<std::string> registers_left(const ProgramPass& pass) {

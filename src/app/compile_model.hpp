@@ -29,8 +29,6 @@ std::string model_report_json(const ModelReport& report);
 int pass_count(const CompiledModel& compiled);
 /// Texture units that hold quantities of the material.
 int map_count(const ModelNeeds& needs);
-/// The texture unit that `quantity` is in; -1 of constants.
-int unit_of(const LayerQuantity& quantity, const CompiledModel& compiled);
 /// The registers that a pass leaves in its frame: "spare0.rgb".
 std::vector<std::string> registers_left(const ProgramPass& pass);
 /// What the units of a pass read: "tex1 = the frame of pass 2". Passes count from 1.

@@ -4,6 +4,7 @@
 
 #include "app/compile_model.hpp"
 #include "app/stats.hpp"
+#include "models/program_inputs.hpp"
 
 namespace burnish::app {
 namespace {
@@ -55,7 +56,7 @@ std::string json_quantity(const LayerQuantity& q, const CompiledModel& compiled)
     if (!q.texture) return fmt::format("{{{}, \"constant\": {}}}", names, json_vector(q.constant));
     return fmt::format(
         "{{{}, \"unit\": {}, \"channel\": {}, \"scale\": {}, \"offset\": {}, \"logarithmic\": {}}}",
-        names, unit_of(q, compiled), q.channel, json_vector(q.scale), json_vector(q.offset),
+        names, unit_of(q, compiled.program), q.channel, json_vector(q.scale), json_vector(q.offset),
         q.logarithmic);
 }
 

@@ -4,17 +4,13 @@
 
 #include "app/compile_model.hpp"
 #include "app/text_table.hpp"
+#include "models/program_inputs.hpp"
 
 namespace burnish::app {
 namespace {
 
 std::string counted(int count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : (what == "pass" ? "es" : "s"));
-}
-
-std::string numbers(const glm::dvec3& v) {
-    if (v.x == v.y && v.y == v.z) return fmt::format("{:.6g}", v.x);
-    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
 std::string heading(const ModelReport& report) {
@@ -31,7 +27,7 @@ std::string material_text(const ModelReport& report) {
     if (!report.material_file.empty())
         return fmt::format("material: '{}' of {}\n", m.name, report.material_file);
     return fmt::format("material: the default, kd {}, ks {}, alpha_x {}, alpha_y {}, N {}\n",
-                       numbers(m.kd), numbers(m.ks), m.alpha_x, m.alpha_y, m.exponent);
+                       numbers_text(m.kd), numbers_text(m.ks), m.alpha_x, m.alpha_y, m.exponent);
 }
 
 std::string estimate_text(const ErrorEstimate& estimate) {
@@ -40,34 +36,20 @@ std::string estimate_text(const ErrorEstimate& estimate) {
 
 std::string inputs_text(const ProgramMaterial& m) {
     std::vector<TableRow> rows;
-    const auto add = [&](const char* name, ColorInput input) {
-        if (input == ColorInput::vertex) return;
-        std::string what(input_name(input));
-        if (input == ColorInput::lit)
-            what += fmt::format(": n_dot_l * {} + {}", numbers(m.lit_tint), numbers(m.lit_base));
-        rows.push_back({name, what});
-    };
-    add("col0.rgb", m.col0_rgb);
-    add("col0.a", m.col0_a);
-    add("col1.rgb", m.col1_rgb);
-    add("col1.a", m.col1_a);
-    for (std::size_t i = 0; i < m.uv.size(); ++i) {
-        if (m.uv[i] != CoordinateInput::uv)
-            rows.push_back({fmt::format("uv{}", i), std::string(input_name(m.uv[i]))});
-    }
-    if (m.half_scale != glm::vec3(1.0F)) rows.push_back({"half_scale", numbers(m.half_scale)});
+    for (const ProgramInput& input : interpolated_inputs(m))
+        rows.push_back({input.name, input.value});
     return rows.empty() ? "" : "inputs\n" + text_table(rows, 2);
 }
 
 /// How a channel's x of 0 .. 1 becomes the quantity.
 std::string decoding(const LayerQuantity& quantity) {
-    if (!quantity.texture) return numbers(quantity.constant);
+    if (!quantity.texture) return numbers_text(quantity.constant);
     const bool below = glm::all(glm::lessThan(quantity.offset, glm::dvec3(0.0)));
     const bool shifted = quantity.offset != glm::dvec3(0.0);
     const std::string linear =
-        fmt::format("{} x{}", numbers(quantity.scale),
+        fmt::format("{} x{}", numbers_text(quantity.scale),
                     shifted ? fmt::format(" {} {}", below ? '-' : '+',
-                                          numbers(below ? -quantity.offset : quantity.offset))
+                                          numbers_text(below ? -quantity.offset : quantity.offset))
                             : "");
     return quantity.logarithmic ? fmt::format("2^({})", linear) : linear;
 }
@@ -75,10 +57,9 @@ std::string decoding(const LayerQuantity& quantity) {
 std::string layer_text(const CompiledModel& compiled) {
     std::vector<TableRow> rows{{"unit", "channels", "quantity", "definition", "value"}};
     for (const LayerQuantity& q : compiled.layer) {
-        const int unit = unit_of(q, compiled);
-        const char* channels = q.components == 3 ? "rgb" : q.channel == 3 ? "a" : "r = g = b";
+        const int unit = unit_of(q, compiled.program);
         rows.push_back({unit < 0 ? "constant" : fmt::format("tex{}", unit),
-                        unit < 0 ? "-" : channels, q.name,
+                        unit < 0 ? "-" : std::string(channels_of(q)), q.name,
                         q.definition == q.name ? "" : q.definition, decoding(q)});
     }
     return "material, x a texel's channel of 0 .. 1\n" + text_table(rows, 2);

@@ -4,6 +4,18 @@
 
 namespace burnish {
 
+namespace {
+
+[[noreturn]] void give_up() {
+    throw Error(ErrorCode::stopped, "the frame was stopped by its caller");
+}
+
+}  // namespace
+
+void require_wanted(const std::function<bool()>& stop) {
+    if (stop && stop()) give_up();
+}
+
 void TileWatch::begin_round(std::size_t before, std::size_t parts, std::size_t all) {
     m_before = before;
     m_parts = parts;
@@ -25,7 +37,7 @@ void TileWatch::tile_done() {
 }
 
 void TileWatch::require_wanted() {
-    if (!go_on()) throw Error(ErrorCode::stopped, "the frame was stopped by its caller");
+    if (!go_on()) give_up();
 }
 
 }  // namespace burnish

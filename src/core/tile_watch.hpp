@@ -13,6 +13,9 @@ struct FrameHooks {
     std::function<bool()> stop = {};
 };
 
+/// Throws Error{stopped} once `stop`, where there is one, says so.
+void require_wanted(const std::function<bool()>& stop);
+
 /// The tiles of a frame under the eyes of its caller. What is drawn does not depend on it.
 class TileWatch {
   public:

@@ -102,8 +102,8 @@ FineProgram fine_program(const Object& object, const Scene& scene, std::size_t l
         return {program_of(object, scene, light, maps), {}};
     const Machine machine = scene.machine.for_programs();
     const auto [color, ambient] = light_of_model(scene, light);
-    CompiledModel model =
-        ModelCompiler(material).compile(machine, color, ambient, TexelPrecision::fine);
+    CompiledModel model = ModelCompiler(material, maps.models.stop)
+                              .compile(machine, color, ambient, TexelPrecision::fine);
     apply_edit(object, machine, light, model.program);
     return {std::move(model.program), std::move(model.tables)};
 }
@@ -128,13 +128,14 @@ void fill(Framebuffer& target, const glm::vec4& color) {
 
 /// A scene on its way to pixels in double precision.
 struct BitRenderer::State {
-    State(const Scene& of, int threads)
+    State(const Scene& of, int threads, std::function<bool()> stop)
         : scene(of),
           pool(threads),
           size{scene.width, scene.height},
           viewport(make_viewport(scene.machine, scene.width, scene.height)),
           chunks(scene.objects.size()),
           visibility(static_cast<std::size_t>(pool.size())) {
+        maps.models.stop = std::move(stop);
         for (const Object& object : scene.objects) prepare(object);
         for (std::size_t i = 0; i < draws.size(); ++i) {
             const Draw& draw = draws[i].front()->draw;
@@ -330,13 +331,13 @@ struct BitRenderer::State {
     std::vector<TileVisibility> visibility;  ///< of each worker
 };
 
-BitRenderer::BitRenderer(const Scene& scene, int threads) {
+BitRenderer::BitRenderer(const Scene& scene, int threads, std::function<bool()> stop) {
     scene.machine.validate();
     if (scene.machine.double_precision)
         throw Error(ErrorCode::bad_option,
                     "chosen bits with profile double, which has no stages; expected one of the "
                     "machines");
-    m_state = std::make_unique<State>(scene, threads);
+    m_state = std::make_unique<State>(scene, threads, std::move(stop));
 }
 BitRenderer::~BitRenderer() = default;
 
@@ -393,7 +394,7 @@ const CombinerProgram& BitRenderer::program(std::size_t object) const {
 Framebuffer render_with_bits(const Scene& scene, const StageBits& bits, int threads,
                              const FrameHooks& hooks) {
     check(bits);
-    return BitRenderer(scene, threads).render(bits, hooks);
+    return BitRenderer(scene, threads, hooks.stop).render(bits, hooks);
 }
 
 }  // namespace burnish::lab

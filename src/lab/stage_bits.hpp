@@ -52,10 +52,12 @@ class BitRenderer {
   public:
     /// @param scene    outlives this object
     /// @param threads  0: one per core; pictures have the same bits with any number
+    /// @param stop     asked while models are compiled, for every row of a material's texels: true
+    ///                 gives it up, Error{stopped}
     /// Throws Error{bad_program} for blended draws, fragments that may be dropped after shading and
     /// mip levels and sums at computed coordinates, Error{bad_option} for profile double, and what
     /// Renderer::render throws.
-    explicit BitRenderer(const Scene& scene, int threads = 0);
+    explicit BitRenderer(const Scene& scene, int threads = 0, std::function<bool()> stop = {});
     ~BitRenderer();
     BitRenderer(const BitRenderer&) = delete;
     BitRenderer& operator=(const BitRenderer&) = delete;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <burnish/error.hpp>
 #include <burnish/multipass.hpp>
+#include <burnish/program_place.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -112,6 +113,11 @@ class Splitter {
     bool split() { return continue_at(0, {}); }
     std::vector<ProgramPass> take() { return std::move(m_passes); }
     [[nodiscard]] const std::string& obstacle() const { return m_obstacle; }
+    /// The general stage that it stands at, where it is one.
+    [[nodiscard]] std::optional<std::size_t> obstacle_stage() const {
+        if (m_obstacle_stage < 0 || m_obstacle_stage >= m_stages) return std::nullopt;
+        return static_cast<std::size_t>(m_obstacle_stage);
+    }
 
   private:
     /// Passes for stages `first` and later and the final combiner; false where there are none.
@@ -388,19 +394,22 @@ std::vector<ProgramPass> split_into_passes(const CombinerProgram& program, const
         std::any_of(program.stages.begin(), program.stages.end(),
                     [](const GeneralStage& stage) { return !stage.fetches.empty(); });
     std::string obstacle;
+    std::optional<std::size_t> stage;
     if (!fetches) {
         Splitter splitter(program, machine, units, fixed);
         if (splitter.split()) return splitter.take();
         obstacle = splitter.obstacle();
+        stage = splitter.obstacle_stage();
     }
     if (!fixed) {
         std::string why;
         if (auto passes = passes_by_value(program, machine, units, why)) return *std::move(passes);
         obstacle += (obstacle.empty() ? "" : "; value by value: ") + why;
     }
-    throw Error(
-        ErrorCode::bad_program,
-        fmt::format("cannot be split into passes for machine '{}': {}", machine.name, obstacle));
+    const std::string message =
+        fmt::format("cannot be split into passes for machine '{}': {}", machine.name, obstacle);
+    if (stage) throw ProgramFault({ProgramPlace::Part::stage, *stage}, message);
+    throw Error(ErrorCode::bad_program, message);
 }
 
 }  // namespace burnish

@@ -173,6 +173,7 @@ BakedTextures bake(const Plan& plan, const Schedule& schedule, TexelQuantities& 
             if (image) image->add_level(source.width(level), source.height(level));
         }
         for (int y = 0; y < source.height(level); ++y) {
+            source.require_wanted();
             texels.seek(level, y);
             for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
                 const PlanQuantity& q = plan.quantities[i];

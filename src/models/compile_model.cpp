@@ -45,7 +45,8 @@ std::string name_of(const Material& material, const Shortage& shortage) {
 
 /// What is kept of a material.
 struct ModelCompiler::Parts {
-    explicit Parts(const Material& of) : material(of), terms(of) {}
+    Parts(const Material& of, std::function<bool()> stop)
+        : material(of), terms(of, std::move(stop)) {}
 
     CompiledModel compile(const Machine& machine, const glm::vec3& light, const glm::vec3& ambient);
 
@@ -199,8 +200,8 @@ CompiledModel ModelCompiler::Parts::compile(const Machine& machine, const glm::v
     }
 }
 
-ModelCompiler::ModelCompiler(const Material& material)
-    : m_parts(std::make_unique<Parts>(material)) {}
+ModelCompiler::ModelCompiler(const Material& material, std::function<bool()> stop)
+    : m_parts(std::make_unique<Parts>(material, std::move(stop))) {}
 ModelCompiler::~ModelCompiler() = default;
 
 CompiledModel ModelCompiler::compile(const Machine& machine, const glm::vec3& light,
@@ -236,7 +237,7 @@ const CompiledModel& CompiledModels::get(const std::shared_ptr<const Material>& 
     }
     if (!m_compiler || m_compiled_last != material) {
         m_compiler.reset();
-        m_compiler = std::make_unique<ModelCompiler>(*material);
+        m_compiler = std::make_unique<ModelCompiler>(*material, stop);
         m_compiled_last = material;
     }
     CompiledModel model = m_compiler->compile(machine, light, ambient);

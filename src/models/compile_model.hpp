@@ -2,6 +2,7 @@
 
 #include <burnish/multipass.hpp>
 #include <burnish/scene.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,7 +55,9 @@ enum class TexelPrecision { machine, fine };
 /// the material alone is worked out once, its texels kept as TexelQuantities does.
 class ModelCompiler {
   public:
-    explicit ModelCompiler(const Material& material);
+    /// Throws Error{stopped}, as compile does, when `stop` says so: it is asked for every row of
+    /// the material's texels. After that this object goes on where it was.
+    explicit ModelCompiler(const Material& material, std::function<bool()> stop = {});
     ~ModelCompiler();
     ModelCompiler(const ModelCompiler&) = delete;
     ModelCompiler& operator=(const ModelCompiler&) = delete;
@@ -80,6 +83,9 @@ LightOfModel light_of_model(const Scene& scene, std::size_t number);
 /// Compiled models, kept while they are drawn again.
 class CompiledModels {
   public:
+    std::function<bool()> stop;  ///< of all ModelCompilers
+
+    /// Throws what ModelCompiler throws.
     const CompiledModel& get(const std::shared_ptr<const Material>& material,
                              const Machine& machine, const glm::vec3& light,
                              const glm::vec3& ambient);

@@ -72,9 +72,9 @@ void include_row(QuantityValues& v, const TexelQuantities& texels, const Expr& q
 
 }  // namespace
 
-MaterialTerms::MaterialTerms(const Material& material)
+MaterialTerms::MaterialTerms(const Material& material, std::function<bool()> stop)
     : m_value(model_expression(material, m_builder)),
-      m_source(material),
+      m_source(material, std::move(stop)),
       m_texels(quantities_of(*m_value), m_source) {
     look_at_texels(material.name);
 

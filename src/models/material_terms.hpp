@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/scene.hpp>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace burnish {
 class MaterialTerms {
   public:
     /// Throws Error{bad_program} for a model that cannot be bounded, and what TexelSource throws.
-    explicit MaterialTerms(const Material& material);
+    /// `stop` as TexelSource has it.
+    explicit MaterialTerms(const Material& material, std::function<bool()> stop = {});
     MaterialTerms(const MaterialTerms&) = delete;
     MaterialTerms& operator=(const MaterialTerms&) = delete;
 

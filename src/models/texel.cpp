@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/tile_watch.hpp"
 #include "models/map_sampler.hpp"
 #include "models/mips/parameter_mips.hpp"
 #include "models/srgb.hpp"
@@ -73,7 +74,8 @@ glm::dvec3 perpendicular(const glm::dvec3& v, const glm::dvec3& n) {
     return left > 1e-6 ? fallback / left : glm::dvec3(1.0, 0.0, 0.0);
 }
 
-TexelSource::TexelSource(const Material& material) : m_material(material) {
+TexelSource::TexelSource(const Material& material, std::function<bool()> stop)
+    : m_material(material), m_stop(std::move(stop)) {
     if (!material.tangent_map != !material.bitangent_map)
         throw Error(ErrorCode::bad_program,
                     fmt::format("material '{}': one of tangent_map and bitangent_map, expected "
@@ -120,8 +122,9 @@ void TexelSource::make_mips() {
         if (m_material.mipmaps->method == MipMethod::maps) {
             mips = mips_of_maps();
         } else {
-            mips = mips::parameter_mips([this](int x, int y) { return at(x, y); }, m_width,
-                                        m_height, mips::LobeShape(m_material), *m_material.mipmaps);
+            mips =
+                mips::parameter_mips([this](int x, int y) { return at(x, y); }, m_width, m_height,
+                                     mips::LobeShape(m_material), *m_material.mipmaps, m_stop);
         }
     }
     m_mips = std::make_shared<const std::vector<mips::ParameterGrid>>(std::move(mips));
@@ -136,10 +139,15 @@ std::vector<mips::ParameterGrid> TexelSource::mips_of_maps() const {
         grid.width = level.width;
         grid.height = level.height;
         for (int y = 0; y < level.height; ++y) {
+            require_wanted();
             for (int x = 0; x < level.width; ++x) grid.texels.push_back(read(level, x, y));
         }
     }
     return mips;
+}
+
+void TexelSource::require_wanted() const {
+    burnish::require_wanted(m_stop);
 }
 
 int TexelSource::levels() const {

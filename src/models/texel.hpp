@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/scene.hpp>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <vector>
@@ -40,8 +41,9 @@ struct TexelParameters {
 class TexelSource {
   public:
     /// Keeps the maps alive. Throws Error{bad_program} for a map that is not two-dimensional and
-    /// for one of tangent_map and bitangent_map alone.
-    explicit TexelSource(const Material& material);
+    /// for one of tangent_map and bitangent_map alone, Error{stopped} if `stop`, which is asked for
+    /// every row of mip levels, says so.
+    explicit TexelSource(const Material& material, std::function<bool()> stop = {});
 
     /// 1 x 1 without maps.
     [[nodiscard]] int width(int level = 0) const;
@@ -60,6 +62,8 @@ class TexelSource {
     /// 0 <= x < width(), 0 <= y < height(); row 0 on top. Safe from several threads.
     [[nodiscard]] TexelParameters at(int x, int y) const;
     [[nodiscard]] TexelParameters at(int level, int x, int y) const;
+    /// For whoever goes through all texels: throws Error{stopped} once nobody wants them.
+    void require_wanted() const;
 
   private:
     void make_mips();
@@ -78,6 +82,7 @@ class TexelSource {
     [[nodiscard]] glm::dvec3 normal(const MapLevel& in, int x, int y) const;
 
     Material m_material;
+    std::function<bool()> m_stop;
     Sampler m_sampler;
     std::vector<TextureLevel> m_map_levels;  ///< of the finest map
     int m_width = 1, m_height = 1;

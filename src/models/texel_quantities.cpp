@@ -82,6 +82,7 @@ void TexelQuantities::seek(int level, int y) {
 }
 
 void TexelQuantities::work_out(int level, int y, Row& row) {
+    m_source.require_wanted();
     const auto width = static_cast<std::size_t>(m_source.width(level));
     row.width = width;
     row.values.resize(m_components * width);

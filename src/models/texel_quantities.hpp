@@ -37,7 +37,8 @@ class TexelQuantities {
     [[nodiscard]] const TexelSource& source() const { return m_source; }
     [[nodiscard]] const std::vector<const Expr*>& quantities() const { return m_quantities; }
 
-    /// Row 0 <= y < source().height(level): good until the next row.
+    /// Row 0 <= y < source().height(level): good until the next row. Throws what
+    /// TexelSource::require_wanted does where it has to be worked out.
     void seek(int level, int y);
     /// Component `c` of one of quantities(), from left to right. Those of a scalar are all the
     /// same.

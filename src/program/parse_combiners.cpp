@@ -14,11 +14,13 @@ enum class Part { constants, stages, final_inputs, outputs };
 
 class ProgramParser {
   public:
-    ProgramParser(Reader& reader, const Dialect& dialect, CombinerProgram& program)
+    ProgramParser(Reader& reader, const Dialect& dialect, CombinerProgram& program,
+                  ProgramLines& lines)
         : m_reader(reader),
           m_dialect(dialect),
           m_program(program),
-          m_final(reader, dialect, program.final_combiner) {}
+          m_lines(lines),
+          m_final(reader, dialect, program.final_combiner, lines) {}
 
     void parse() {
         while (!m_reader.at_end()) m_reader.statement([this] { statement(); });
@@ -41,7 +43,7 @@ class ProgramParser {
         } else if (m_reader.at("{")) {
             enter(Part::stages, "in front of the final combiner");
             count_stage(start);
-            add_stage(parse_stage(m_reader, m_dialect));
+            add_stage(parse_stage(m_reader, m_dialect, stage_lines()));
         } else if (m_reader.at("fetch")) {
             enter(Part::stages, "in front of the final combiner");
             fetches();
@@ -98,8 +100,11 @@ class ProgramParser {
         if (!m_dialect.extended)
             m_reader.complain(m_fetch, fmt::format("fetch in {}, it is a word of {}",
                                                    m_dialect.header, kBrn10.header));
-        parse_fetches(m_reader, m_dialect, m_fetches);
+        parse_fetches(m_reader, m_dialect, m_fetches, stage_lines());
     }
+
+    /// Of the stage that comes next.
+    StageLines stage_lines() { return {m_lines, m_program.stages.size()}; }
 
     /// Complains at the first stage that is too many.
     void count_stage(const Token& where) {
@@ -118,6 +123,7 @@ class ProgramParser {
     Reader& m_reader;
     const Dialect& m_dialect;
     CombinerProgram& m_program;
+    ProgramLines& m_lines;
     FinalParser m_final;
     Part m_part = Part::constants;
     bool m_has_const0 = false, m_has_const1 = false;
@@ -132,13 +138,14 @@ Parsed<CombinerProgram> parse_combiners(std::string_view text) {
     constexpr std::array kHeaders{kRc10.header, kBrn10.header};
     Reader reader(text);
     CombinerProgram program;
+    ProgramLines lines;
     reader.text([&] {
         const auto header = reader.header(kHeaders);
         if (header)
-            ProgramParser(reader, *header == kRc10.header ? kRc10 : kBrn10, program).parse();
+            ProgramParser(reader, *header == kRc10.header ? kRc10 : kBrn10, program, lines).parse();
     });
-    if (reader.failed()) return {std::nullopt, reader.take_errors()};
-    return {std::move(program), {}};
+    if (reader.failed()) return {std::nullopt, reader.take_errors(), {}};
+    return {std::move(program), {}, std::move(lines)};
 }
 
 }  // namespace burnish

@@ -42,8 +42,10 @@ FetchTarget take_target(Reader& reader) {
     return static_cast<FetchTarget>(at - kFetchWords.begin());
 }
 
-void take_fetch(Reader& reader, const Dialect& dialect, std::vector<StageFetch>& fetches) {
+void take_fetch(Reader& reader, const Dialect& dialect, std::vector<StageFetch>& fetches,
+                StageLines lines) {
     StageFetch fetch;
+    const Token begin = reader.peek();
     const NamedRegister named = take_register(reader, dialect);
     fetch.destination = named.reg;
     const bool texture = named.reg >= Register::tex0 && named.reg <= Register::tex15;
@@ -66,18 +68,21 @@ void take_fetch(Reader& reader, const Dialect& dialect, std::vector<StageFetch>&
     }
     reader.expect(")");
     reader.expect_end();
-    if (texture && !twice) fetches.push_back(fetch);
+    if (!texture || twice) return;
+    fetches.push_back(fetch);  // at most one for each texture register
+    lines.note(ProgramPlace::Part::fetches, static_cast<int>(fetches.size()), begin);
 }
 
 }  // namespace
 
-void parse_fetches(Reader& reader, const Dialect& dialect, std::vector<StageFetch>& fetches) {
+void parse_fetches(Reader& reader, const Dialect& dialect, std::vector<StageFetch>& fetches,
+                   StageLines lines) {
     const std::size_t before = fetches.size();
     const std::size_t errors = reader.error_count();
-    reader.take();
+    lines.note(ProgramPlace::Part::fetches, ProgramPlace::kAll, reader.take());
     reader.expect("{");
     while (!reader.at("}") && !reader.at_end())
-        reader.statement([&] { take_fetch(reader, dialect, fetches); });
+        reader.statement([&] { take_fetch(reader, dialect, fetches, lines); });
     if (fetches.size() == before && errors == reader.error_count() && !reader.at_end())
         reader.complain(reader.peek(), "no fetch between '{' and '}', expected a texture register");
     reader.expect("}");

@@ -23,6 +23,13 @@ Token FinalParser::begin(bool& seen) {
     return name;
 }
 
+/// The same, one that ProgramPlace names.
+Token FinalParser::begin(bool& seen, std::uint8_t statement) {
+    const Token name = begin(seen);
+    m_lines.emplace(ProgramPlace{ProgramPlace::Part::final_combiner, 0, statement}, name.line);
+    return name;
+}
+
 Operand FinalParser::operand(Place place) {
     const Operand operand = take_operand(m_reader, m_dialect, place);
     if (operand.input.reg == Register::final_product && !m_product_use)
@@ -46,7 +53,7 @@ void FinalParser::product_factor(Input& target) {
 }
 
 void FinalParser::final_product() {
-    begin(m_has_product);
+    begin(m_has_product, ProgramPlace::kFinalProduct);
     m_reader.expect("=");
     product_factor(m_final.e);
     m_reader.expect("*");
@@ -88,7 +95,7 @@ void FinalParser::sum(const Input& x, const Input& y) {
 }
 
 void FinalParser::out_rgb() {
-    begin(m_has_rgb);
+    begin(m_has_rgb, ProgramPlace::kOutRgb);
     m_reader.expect("=");
     if (m_reader.at("lerp")) {
         lerp();
@@ -112,7 +119,7 @@ void FinalParser::out_rgb() {
 }
 
 void FinalParser::out_alpha() {
-    begin(m_has_alpha);
+    begin(m_has_alpha, ProgramPlace::kOutAlpha);
     m_reader.expect("=");
     m_final.g = take_operand(m_reader, m_dialect, Place::final_alpha).input;
     m_reader.expect_end();

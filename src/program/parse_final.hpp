@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/combiner.hpp>
+#include <burnish/program_place.hpp>
 #include <optional>
 
 #include "program/dialect.hpp"
@@ -12,8 +13,9 @@ namespace burnish {
 /// The statements of the final combiner, one call per statement.
 class FinalParser {
   public:
-    FinalParser(Reader& reader, const Dialect& dialect, FinalCombiner& target)
-        : m_reader(reader), m_dialect(dialect), m_final(target) {}
+    /// Notes in `lines` where statements begin.
+    FinalParser(Reader& reader, const Dialect& dialect, FinalCombiner& target, ProgramLines& lines)
+        : m_reader(reader), m_dialect(dialect), m_final(target), m_lines(lines) {}
 
     /// The next token is clamp_color_sum.
     void clamp_color_sum();
@@ -28,6 +30,7 @@ class FinalParser {
 
   private:
     Token begin(bool& seen);
+    Token begin(bool& seen, std::uint8_t statement);
     Operand operand(Place place);
     void product_factor(Input& target);
     void lerp();
@@ -37,6 +40,7 @@ class FinalParser {
     Reader& m_reader;
     const Dialect& m_dialect;
     FinalCombiner& m_final;
+    ProgramLines& m_lines;
     bool m_clamps = false, m_has_product = false, m_has_rgb = false, m_has_alpha = false;
     std::optional<Token> m_product_use;  ///< the first
 };

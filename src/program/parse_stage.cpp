@@ -31,8 +31,13 @@ const ScaleWord* scale_word(const Token& token) {
 /// The operations of one portion, from '{' to '}'.
 class PortionParser {
   public:
-    PortionParser(Reader& reader, const Dialect& dialect, Place place, Portion& portion)
-        : m_reader(reader), m_dialect(dialect), m_place(place), m_portion(portion) {}
+    PortionParser(Reader& reader, const Dialect& dialect, Place place, Portion& portion,
+                  StageLines lines)
+        : m_reader(reader),
+          m_dialect(dialect),
+          m_place(place),
+          m_portion(portion),
+          m_lines(lines) {}
 
     void parse() {
         const std::size_t errors = m_reader.error_count();
@@ -60,6 +65,7 @@ class PortionParser {
         // A statement that fails further on was an operation, too.
         m_index = m_operations;
         if (m_operations < 3) ++m_operations;
+        note(m_operations, start);
         const Register out = destination();
         m_reader.expect("=");
         if (m_reader.at("mux") || m_reader.at("sum"))
@@ -69,8 +75,15 @@ class PortionParser {
         m_reader.expect_end();
     }
 
+    /// Operations count from 1, as ProgramPlace has them.
+    void note(int statement, const Token& begin) {
+        m_lines.note(is_scalar(m_place) ? ProgramPlace::Part::alpha : ProgramPlace::Part::rgb,
+                     statement, begin);
+    }
+
     void scale(const ScaleWord& word) {
         const Token token = m_reader.take();
+        note(ProgramPlace::kScale, token);
         if (m_operations == 0)
             m_reader.complain(
                 token,
@@ -145,6 +158,7 @@ class PortionParser {
     const Dialect& m_dialect;
     Place m_place;
     Portion& m_portion;
+    StageLines m_lines;
     int m_operations = 0;  ///< begun so far, at most 3
     int m_index = 0;       ///< of the current one; 3 if there are too many
     bool m_scaled = false;
@@ -153,10 +167,12 @@ class PortionParser {
 /// Constants and portions of one stage, from '{' to '}'.
 class StageParser {
   public:
-    StageParser(Reader& reader, const Dialect& dialect) : m_reader(reader), m_dialect(dialect) {}
+    StageParser(Reader& reader, const Dialect& dialect, StageLines lines)
+        : m_reader(reader), m_dialect(dialect), m_lines(lines) {}
 
     GeneralStage parse() {
         const std::size_t errors = m_reader.error_count();
+        m_lines.note(ProgramPlace::Part::stage, ProgramPlace::kAll, m_reader.peek());
         m_reader.expect("{");
         while (!m_reader.at("}") && !m_reader.at_end()) m_reader.statement([this] { statement(); });
         const bool empty = !m_rgb && !m_alpha;
@@ -181,6 +197,7 @@ class StageParser {
     }
 
     void constant(std::optional<glm::vec4>& target) {
+        m_lines.note(ProgramPlace::Part::constants, ProgramPlace::kAll, m_reader.peek());
         if (m_rgb || m_alpha)
             m_reader.complain(m_reader.peek(),
                               fmt::format("{} after a portion, expected it in front of them",
@@ -205,11 +222,15 @@ class StageParser {
         Portion& target = alpha ? m_stage.alpha : m_stage.rgb;
         target = alpha ? idle_stage().alpha : Portion{};
         target.wide = wide;
-        PortionParser(m_reader, m_dialect, alpha ? Place::alpha : Place::rgb, target).parse();
+        m_lines.note(alpha ? ProgramPlace::Part::alpha : ProgramPlace::Part::rgb,
+                     ProgramPlace::kAll, first);
+        PortionParser(m_reader, m_dialect, alpha ? Place::alpha : Place::rgb, target, m_lines)
+            .parse();
     }
 
     Reader& m_reader;
     const Dialect& m_dialect;
+    StageLines m_lines;
     GeneralStage m_stage = idle_stage();
     bool m_rgb = false;
     bool m_alpha = false;
@@ -236,8 +257,8 @@ glm::vec4 parse_constant(Reader& reader, bool taken) {
     return value;
 }
 
-GeneralStage parse_stage(Reader& reader, const Dialect& dialect) {
-    return StageParser(reader, dialect).parse();
+GeneralStage parse_stage(Reader& reader, const Dialect& dialect, StageLines lines) {
+    return StageParser(reader, dialect, lines).parse();
 }
 
 }  // namespace burnish

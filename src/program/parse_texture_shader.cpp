@@ -243,8 +243,8 @@ Parsed<TextureShader> parse_texture_shader(std::string_view text) {
     reader.text([&] {
         if (reader.header(kHeaders)) TextureShaderParser(reader, shader).parse();
     });
-    if (reader.failed()) return {std::nullopt, reader.take_errors()};
-    return {shader, {}};
+    if (reader.failed()) return {std::nullopt, reader.take_errors(), {}};
+    return {shader, {}, {}};
 }
 
 }  // namespace burnish

@@ -2,9 +2,10 @@
 
 namespace burnish::reference {
 
-ExactMaterial exact_material(const Material& material) {
-    if (material.model == Model::text) return {nullptr, std::make_shared<TextModel>(material)};
-    return {exact_surface(material), nullptr};
+ExactMaterial exact_material(const Material& material, const std::function<bool()>& stop) {
+    if (material.model == Model::text)
+        return {nullptr, std::make_shared<TextModel>(material, stop)};
+    return {exact_surface(material, stop), nullptr};
 }
 
 ExactMaterial SurfaceCache::of(const std::shared_ptr<const Material>& material) {
@@ -13,7 +14,7 @@ ExactMaterial SurfaceCache::of(const std::shared_ptr<const Material>& material) 
         entry.idle = 0;
         return entry.exact;
     }
-    return m_entries.emplace_back(Entry{material, exact_material(*material), 0}).exact;
+    return m_entries.emplace_back(Entry{material, exact_material(*material, stop), 0}).exact;
 }
 
 void SurfaceCache::drop_unused(int frames) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/scene.hpp>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,13 +16,15 @@ struct ExactMaterial {
     std::shared_ptr<const TextModel> text;  ///< of Model::text
 };
 
-/// Throws what exact_surface and TextModel throw.
-ExactMaterial exact_material(const Material& material);
+/// `stop` as TexelSource has it. Throws what exact_surface and TextModel throw.
+ExactMaterial exact_material(const Material& material, const std::function<bool()>& stop = {});
 
 /// Exact materials, kept while they are drawn again: mip levels of parameters take a second for
 /// maps of a million texels.
 class SurfaceCache {
   public:
+    std::function<bool()> stop;  ///< of exact_material
+
     /// Throws what exact_material throws.
     ExactMaterial of(const std::shared_ptr<const Material>& material);
     /// Forgets what was not asked for since the last call but `frames` - 1.

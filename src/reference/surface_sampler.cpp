@@ -228,8 +228,9 @@ CoordinateSteps TexelGrid::steps_of(int level) const {
     return {{step.x, 0.0}, {0.0, step.y}};
 }
 
-std::unique_ptr<SurfaceSampler> exact_surface(const Material& material) {
-    TexelSource source(material);
+std::unique_ptr<SurfaceSampler> exact_surface(const Material& material,
+                                              const std::function<bool()>& stop) {
+    TexelSource source(material, stop);
     if (!source.varies())
         return std::make_unique<ConstantSurface>(surface_of(material.model, source.at(0, 0)));
     return std::make_unique<ExactSurface>(material.model, std::move(source),

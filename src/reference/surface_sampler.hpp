@@ -47,7 +47,9 @@ class SurfaceSampler {
 
 /// Quantities in double precision, computed from the maps texel by texel. A border has the colour
 /// of the edge. Throws what TexelSource throws.
-std::unique_ptr<SurfaceSampler> exact_surface(const Material& material);
+/// @param stop  as TexelSource has it
+std::unique_ptr<SurfaceSampler> exact_surface(const Material& material,
+                                              const std::function<bool()>& stop = {});
 
 /// Quantities as they stand in the textures of a machine's layer; those that it does without are
 /// exact.

@@ -123,8 +123,8 @@ TextSurface operator+(TextSurface a, const TextSurface& b) {
     return a;
 }
 
-TextModel::TextModel(const Material& material)
-    : m_source(material), m_has_mipmaps(material.mipmaps.has_value()) {
+TextModel::TextModel(const Material& material, const std::function<bool()>& stop)
+    : m_source(material, stop), m_has_mipmaps(material.mipmaps.has_value()) {
     ExprBuilder builder;
     m_value = model_expression(material, builder);
     m_quantities = quantities_of(*m_value);
@@ -147,6 +147,7 @@ void TextModel::find_extremes() {
     if (m_extremes.empty()) return;
     for (int level = 0; level < m_source.levels(); ++level) {
         for (int y = 0; y < m_source.height(level); ++y) {
+            m_source.require_wanted();
             for (int x = 0; x < m_source.width(level); ++x) {
                 const TextSurface here = texel(m_source.at(level, x, y));
                 for (auto& [i, value] : m_extremes) {

@@ -47,8 +47,9 @@ TextSurface operator+(TextSurface a, const TextSurface& b);
 /// of SurfaceSampler.
 class TextModel {
   public:
-    /// Throws Error{bad_program} for a text with errors, and what TexelSource throws.
-    explicit TextModel(const Material& material);
+    /// `stop` as TexelSource has it. Throws Error{bad_program} for a text with errors, and what
+    /// TexelSource throws.
+    explicit TextModel(const Material& material, const std::function<bool()>& stop = {});
     /// Quantities as they stand in the textures of a machine's layer; those that it does without
     /// are exact.
     TextModel(const Material& material, std::span<const LayerQuantity> layer);

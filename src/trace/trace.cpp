@@ -22,10 +22,11 @@ namespace {
 /// The renderer's road up to the screen, for one look.
 class TracedFrame {
   public:
-    explicit TracedFrame(const Scene& scene)
+    TracedFrame(const Scene& scene, const std::function<bool()>& stop)
         : m_scene(scene),
           m_view{&scene, make_view(scene.camera, scene.width, scene.height),
                  make_viewport(scene.machine, scene.width, scene.height)} {
+        m_maps.models.stop = stop;
         m_view.half_cube = HalfVectorCube().of(scene.machine);
         for (const Object& object : scene.objects) {
             m_draws.push_back(std::make_unique<Draw>());
@@ -139,7 +140,7 @@ class TracedFrame {
 
 }  // namespace
 
-PixelTrace trace_pixel(const Scene& scene, int x, int y) {
+PixelTrace trace_pixel(const Scene& scene, int x, int y, const std::function<bool()>& stop) {
     if (x < 0 || y < 0 || x >= scene.width || y >= scene.height) {
         throw Error(ErrorCode::bad_option,
                     fmt::format("pixel {},{}, expected one inside the frame of {}x{} pixels", x, y,
@@ -168,7 +169,7 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y) {
     trace.format = scene.format;
     // In the floating-point environment of the renderer's workers, whatever the caller's is.
     WorkerPool(1).run([&](int) {
-        TracedFrame frame(scene);
+        TracedFrame frame(scene, stop);
         TracedPixel pixel(scene);
         for (const VisibleTriangle& seen : frame.visible(x, y)) {
             if (trace.fragment) trace.below.push_back(std::move(*trace.fragment));

@@ -25,9 +25,10 @@ void file_controls(const Session& session, const Picture* picture) {
     if (picture == nullptr) return;
     std::string panes;
     for (const PaneReport& pane : picture->panes)
-        panes += fmt::format("{} {:.1f} ms{}{}\n", pane.machine, pane.ms,
-                             pane.divisor > 1.0 ? fmt::format(", 1/{:g}", pane.divisor) : "",
-                             pane.samples > 1 ? fmt::format(", {} samples", pane.samples) : "");
+        panes +=
+            fmt::format("{} {:.1f} ms{}{}\n", pane.machine, pane.ms,
+                        pane.divisor > 1.0 ? fmt::format(", sides / {:.1f}", pane.divisor) : "",
+                        pane.samples > 1 ? fmt::format(", {} samples", pane.samples) : "");
     ImGui::TextUnformatted(panes.c_str());
 }
 

@@ -31,43 +31,46 @@ void apply_model(const MaterialEdit& edit, Material& material) {
 }
 
 /// Nothing, with the reasons, for a text that is no program.
-std::optional<CombinerProgram> program_of(const std::string& text, const std::string& material,
-                                          std::vector<ProgramError>& errors) {
+Parsed<CombinerProgram> program_of(const std::string& text, const std::string& material,
+                                   std::vector<ProgramError>& errors) {
     Parsed<CombinerProgram> parsed = parse_combiners(text);
     for (const TextError& error : parsed.errors)
         errors.push_back({material, error.line, error.column, error.message});
-    return std::move(parsed.program);
+    return parsed;
 }
 
 /// The pipeline with another text; null for one that is no program.
 std::shared_ptr<const Material> edited_pipeline(const MaterialEdit& edit, const Material& loaded,
+                                                ProgramLines& lines,
                                                 std::vector<ProgramError>& errors) {
-    const std::optional<CombinerProgram> program = program_of(*edit.combiners, edit.name, errors);
-    if (!program) return nullptr;
+    Parsed<CombinerProgram> parsed = program_of(*edit.combiners, edit.name, errors);
+    if (!parsed.program) return nullptr;
+    lines = std::move(parsed.lines);
     Material material = loaded;
     CombinerProgram& combiners = material.program->combiners;
     // What no text can say stays as it was.
-    const CombinerProgram before = std::exchange(combiners, *program);
+    const CombinerProgram before = std::exchange(combiners, *std::move(parsed.program));
     combiners.fog = before.fog;
     combiners.mux_bit = before.mux_bit;
     return std::make_shared<const Material>(std::move(material));
 }
 
 /// A model's program with another text; null for one that is no program.
-std::shared_ptr<const EditedProgram> edited_program(const MaterialEdit& edit,
+std::shared_ptr<const EditedProgram> edited_program(const MaterialEdit& edit, ProgramLines& lines,
                                                     std::vector<ProgramError>& errors) {
     if (!edit.compiled) {
         errors.push_back({edit.name, 1, 1, "of a model, expected 'compiled_text' beside it"});
         return nullptr;
     }
     std::vector<ProgramError> own_errors;
-    const auto own = program_of(*edit.compiled, edit.name, own_errors);
+    const auto own = program_of(*edit.compiled, edit.name, own_errors).program;
     for (const ProgramError& error : own_errors)
         errors.push_back({edit.name, 1, 1,
                           fmt::format("'compiled_text', line {}: {}", error.line, error.message)});
-    const auto program = program_of(*edit.combiners, edit.name, errors);
-    if (!own || !program) return nullptr;
-    return std::make_shared<const EditedProgram>(EditedProgram{*own, *program});
+    Parsed<CombinerProgram> parsed = program_of(*edit.combiners, edit.name, errors);
+    if (!own || !parsed.program) return nullptr;
+    lines = std::move(parsed.lines);
+    return std::make_shared<const EditedProgram>(EditedProgram{*own, *std::move(parsed.program)});
 }
 
 /// The model and its parameters alone.
@@ -107,7 +110,8 @@ void EditedMaterials::update(Kept& kept, const Material& loaded, const MaterialE
     kept.errors.clear();
     if (loaded.program) {
         if (edit.combiners == kept.pipeline) return;
-        auto material = edit.combiners ? edited_pipeline(edit, loaded, kept.errors) : nullptr;
+        auto material =
+            edit.combiners ? edited_pipeline(edit, loaded, kept.lines, kept.errors) : nullptr;
         if (!kept.errors.empty()) return;
         kept.material = std::move(material);
         kept.pipeline = edit.combiners;
@@ -115,13 +119,30 @@ void EditedMaterials::update(Kept& kept, const Material& loaded, const MaterialE
     }
     if (without_program(before) != without_program(edit) || !same_mipmaps)
         kept.material = edited_model(edit, loaded, mipmaps);
-    auto program = edit.combiners ? edited_program(edit, kept.errors) : nullptr;
+    auto program = edit.combiners ? edited_program(edit, kept.lines, kept.errors) : nullptr;
     if (kept.errors.empty()) kept.program = std::move(program);
 }
 
-void EditedMaterials::apply(const ViewState& state, Scene& scene,
-                            std::vector<ProgramError>& errors) {
-    for (Object& object : scene.objects) {
+void EditedMaterials::note(const std::shared_ptr<const Material>& loaded, std::size_t object,
+                           const Kept& kept) {
+    const bool told = std::any_of(m_errors.begin(), m_errors.end(), [&](const ProgramError& each) {
+        return each.material == loaded->name;
+    });
+    if (!told) m_errors.insert(m_errors.end(), kept.errors.begin(), kept.errors.end());
+    if (loaded->program ? !kept.material : !kept.program) return;
+    const auto known = std::find_if(m_programs.begin(), m_programs.end(),
+                                    [&](const ProgramEdit& each) { return each.loaded == loaded; });
+    if (known != m_programs.end())
+        known->objects.push_back(object);
+    else
+        m_programs.push_back({loaded, {object}, kept.errors.empty() ? kept.lines : ProgramLines()});
+}
+
+void EditedMaterials::apply(const ViewState& state, Scene& scene) {
+    m_programs.clear();
+    m_errors.clear();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        Object& object = scene.objects[i];
         const std::shared_ptr<const Material> loaded = material_of(object);
         if (!loaded) continue;
         const MaterialEdit* edit = find_edit(state, loaded->name);
@@ -135,10 +156,7 @@ void EditedMaterials::apply(const ViewState& state, Scene& scene,
                mipmaps);
         if (kept.material) object.material = kept.material;
         object.edited = kept.program;
-        const bool told = std::any_of(errors.begin(), errors.end(), [&](const ProgramError& each) {
-            return each.material == loaded->name;
-        });
-        if (!told) errors.insert(errors.end(), kept.errors.begin(), kept.errors.end());
+        note(loaded, i, kept);
     }
 }
 
@@ -178,8 +196,7 @@ Machine machine_for(const ViewState& state, const Machine& machine) {
     return result;
 }
 
-Scene edited_scene(const Scene& loaded, const ViewState& state, EditedMaterials& materials,
-                   std::vector<ProgramError>& errors) {
+Scene edited_scene(const Scene& loaded, const ViewState& state, EditedMaterials& materials) {
     Scene scene = loaded;
     scene.width = state.width;
     scene.height = state.height;
@@ -197,7 +214,7 @@ Scene edited_scene(const Scene& loaded, const ViewState& state, EditedMaterials&
         scene.lights.front().position = *state.light;
         scene.lights.front().position_w = 0.0F;
     }
-    materials.apply(state, scene, errors);
+    materials.apply(state, scene);
     return scene;
 }
 

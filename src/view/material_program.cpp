@@ -7,53 +7,34 @@
 #include <burnish/program_text.hpp>
 
 #include "models/abp_modified.hpp"
+#include "models/program_inputs.hpp"
 #include "view/complaint.hpp"
 #include "view/edited_scene.hpp"
 
 namespace burnish::view {
 namespace {
 
-std::string line(const std::string& reg, const std::string& what) {
-    return fmt::format("{:<10}{}\n", reg, what);
+std::string axes_text(const TableReport& table) {
+    std::string axes;
+    for (const AxisReport& axis : table.axes)
+        axes += fmt::format("{}{} = {:.4g} .. {:.4g}", axes.empty() ? "" : ", ", axis.argument,
+                            axis.first, axis.last);
+    return axes;
 }
 
-std::string interpolators_text(const ProgramMaterial& m) {
-    std::string text;
-    const auto add = [&](const char* reg, ColorInput input) {
-        if (input != ColorInput::vertex) text += line(reg, std::string(input_name(input)));
-    };
-    add("col0.rgb", m.col0_rgb);
-    add("col0.a", m.col0_a);
-    add("col1.rgb", m.col1_rgb);
-    add("col1.a", m.col1_a);
-    for (std::size_t i = 0; i < m.uv.size(); ++i) {
-        if (m.uv[i] != CoordinateInput::uv)
-            text += line(fmt::format("tex{}", i), std::string(input_name(m.uv[i])));
-    }
-    return text;
-}
-
-/// Quantities of the material that are texels, then tables.
-std::string texels_text(const CompiledModel& model) {
-    std::string text;
+/// What interpolators carry, then quantities of the material that are texels, then tables.
+std::vector<ProgramInput> inputs_of(const CompiledModel& model) {
+    std::vector<ProgramInput> inputs = interpolated_inputs(model.program);
     for (const LayerQuantity& q : model.layer) {
         if (!q.texture) continue;
-        const auto& units = model.program.units;
-        const auto unit = std::find(units.begin(), units.end(), q.texture) - units.begin();
-        const char* channels = q.components == 3 ? "rgb" : q.channel == 3 ? "a" : "r";
-        text +=
-            line(fmt::format("tex{}.{}", unit, channels),
-                 q.definition == q.name ? q.name : fmt::format("{} = {}", q.name, q.definition));
+        inputs.push_back(
+            {fmt::format("tex{} {}", unit_of(q, model.program), channels_of(q)),
+             q.definition == q.name ? q.name : fmt::format("{} = {}", q.name, q.definition)});
     }
-    for (const TableReport& table : model.tables) {
-        std::string axes;
-        for (const AxisReport& axis : table.axes)
-            axes += fmt::format("{}{} = {:.4g} .. {:.4g}", axes.empty() ? "" : ", ", axis.argument,
-                                axis.first, axis.last);
-        text += line(fmt::format("tex{}", table.unit),
-                     fmt::format("table {} of {}", table.function, axes));
-    }
-    return text;
+    for (const TableReport& table : model.tables)
+        inputs.push_back({fmt::format("tex{}", table.unit),
+                          fmt::format("table {} of {}", table.function, axes_text(table))});
+    return inputs;
 }
 
 std::string inputs_text(CompiledModels& models, const Scene& scene,
@@ -61,7 +42,13 @@ std::string inputs_text(CompiledModels& models, const Scene& scene,
     if (has_own_maps(*material)) return "";
     const auto [light, ambient] = light_of_model(scene, 0);
     const CompiledModel& model = models.get(material, scene.machine.for_programs(), light, ambient);
-    return interpolators_text(model.program) + texels_text(model);
+    const std::vector<ProgramInput> inputs = inputs_of(model);
+    std::size_t width = 0;
+    for (const ProgramInput& input : inputs) width = std::max(width, input.name.size());
+    std::string text;
+    for (const ProgramInput& input : inputs)
+        text += fmt::format("{:<{}}  {}\n", input.name, width, input.value);
+    return text;
 }
 
 }  // namespace
@@ -79,6 +66,10 @@ std::vector<MaterialProgram> MaterialPrograms::of(Renderer& renderer, const Scen
         MaterialProgram& program = programs.emplace_back();
         program.material = material->name;
         std::string& inputs = m_inputs[material->name];
+        if (scene.machine.double_precision) {
+            program.error = "double precision works by formulas; a machine has a program here";
+            continue;
+        }
         try {
             program.text = print_combiners(renderer.program(scene, i).combiners);
             if (anew) inputs = inputs_text(m_models, scene, material);

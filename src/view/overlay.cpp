@@ -48,13 +48,14 @@ void picture_overlay(const Session& session, const Picture* picture) {
         label(list, ImVec2(std::min(300.0F, size.x * 0.25F), y), kWrong, text, width);
         y += ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + 8.0F;
     };
-    for (const std::string& message : {session.message, session.wish_message})
+    for (const std::string& message : {session.message, session.shot_message, session.wish_message})
         if (!message.empty()) complain(message);
     for (const std::string& message : session.edit_messages()) complain(message);
     if (picture == nullptr) return;
     for (const PaneReport& pane : picture->panes)
-        for (const std::string& message : {pane.error, pane.note})
-            if (!message.empty()) complain(message);
+        if (!pane.error.empty()) complain(pane.error);
+    if (session.shows_programs) return;  // the panel has them at their lines
+    for (const ProgramError& misfit : misfits_of(*picture)) complain(of_material(misfit));
 }
 
 void key_list_panel(OpenPanels& open) {

@@ -28,6 +28,8 @@ bool material_header(const Material& material, bool open, const Picture* picture
 void trace_panel(Session& session, const Picture* picture);
 /// The program of a material as text that may be edited, with what is wrong at its line.
 void program_panel(Session& session, const Picture* picture);
+/// How wide it is at first, at the right side of the window.
+float program_panel_width();
 /// Times of the last frames; a button copies them as JSON.
 void frame_graph_panel(const FrameTimes& times, const Picture* picture);
 void key_list_panel(OpenPanels& open);

@@ -98,16 +98,6 @@ bool has_bits(const Wish& wish, const Machine& machine) {
     return !wish.bits.empty() && !machine.double_precision;
 }
 
-/// False if no program was edited.
-bool drop_edits(Scene& scene) {
-    bool dropped = false;
-    for (Object& object : scene.objects) {
-        dropped = dropped || object.edited;
-        object.edited = nullptr;
-    }
-    return dropped;
-}
-
 int side_of(Fineness fineness) {
     return fineness == Fineness::smooth ? 2 : fineness == Fineness::smoothest ? 4 : 1;
 }
@@ -164,29 +154,31 @@ Framebuffer PictureMaker::draw_frame(const Wish& wish, const Scene& scene, int s
 
 Framebuffer PictureMaker::draw_with_edits(const Wish& wish, Scene& scene, int side,
                                           PaneReport& report, Picture& picture) {
-    std::string note;
+    std::optional<Framebuffer> frame;
     try {
-        return draw_frame(wish, scene, side, picture);
+        frame = draw_frame(wish, scene, side, picture);
     } catch (const Error& error) {
-        if (error.code() == ErrorCode::stopped || !drop_edits(scene)) throw;
-        note = std::string(error.what()) + "; the model's own is drawn";
+        if (error.code() == ErrorCode::stopped) throw;
+        report.misfits =
+            m_fitting.replace_misfits(renderer_for(wish, scene.machine), wish.edits, scene);
+        if (report.misfits.empty()) throw;
     }
-    Framebuffer frame = draw_frame(wish, scene, side, picture);
-    report.note = note;
-    return frame;
+    if (!frame) frame = draw_frame(wish, scene, side, picture);
+    m_fitting.drawn(wish.edits, scene);
+    return *std::move(frame);
 }
 
-void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t index,
-                             Picture& picture) {
+Scene PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t index,
+                              Picture& picture) {
     const Pane& pane = wish.panes[index];
     PaneReport& report = picture.panes[index];
     report.machine = pane.machine.name;
     const Columns columns = columns_of(pane, wish.scene->width);
-    if (columns.from >= columns.to) return;
+    Scene scene = *wish.scene;
+    scene.machine = pane.machine;
+    if (columns.from >= columns.to) return scene;
     const Clock::time_point start = Clock::now();
     try {
-        Scene scene = *wish.scene;
-        scene.machine = pane.machine;
         const std::string pace = wish.heat_map                   ? "error"
                                  : has_bits(wish, scene.machine) ? "bits"
                                                                  : scene.machine.name;
@@ -211,6 +203,7 @@ void PictureMaker::draw_pane(const Wish& wish, Fineness fineness, std::size_t in
         report.error = complaint(error);
     }
     if (!report.error.empty()) fill_columns(columns, picture.frame);
+    return scene;
 }
 
 std::vector<MaterialProgram> PictureMaker::programs_of(const Wish& wish, Fineness fineness) {
@@ -228,27 +221,48 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     picture.fineness = fineness;
     picture.panes.resize(wish.panes.size());
     if (!wish.heat_map) m_truth.reset();
-    for (std::size_t i = wish.panes.size(); i-- > 0;) draw_pane(wish, fineness, i, picture);
+    std::optional<Scene> traced;
+    for (std::size_t i = wish.panes.size(); i-- > 0;) {
+        Scene drawn = draw_pane(wish, fineness, i, picture);
+        const Columns columns = columns_of(wish.panes[i], wish.scene->width);
+        if (wish.pixel && wish.pixel->x >= columns.from && wish.pixel->x < columns.to)
+            traced = std::move(drawn);
+    }
     picture.ms = ms_since(start);
     if (wish.programs)
         picture.programs = programs_of(wish, fineness);
     else
         m_programs = {};
-    if (!wish.pixel || fineness != Fineness::full) return picture;
+    if (!traced || fineness != Fineness::full) return picture;
     try {
-        Scene scene = *wish.scene;
-        for (std::size_t i = 0; i < wish.panes.size(); ++i) {
-            const Columns columns = columns_of(wish.panes[i], scene.width);
-            if (wish.pixel->x < columns.from || wish.pixel->x >= columns.to) continue;
-            scene.machine = wish.panes[i].machine;
-            if (!picture.panes[i].note.empty()) drop_edits(scene);
-        }
-        picture.trace =
-            std::make_shared<const PixelTrace>(trace_pixel(scene, wish.pixel->x, wish.pixel->y));
+        picture.trace = std::make_shared<const PixelTrace>(
+            trace_pixel(*traced, wish.pixel->x, wish.pixel->y, m_stop));
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::stopped) throw;
+        picture.trace_error = error.what();
     } catch (const std::exception& error) {
         picture.trace_error = complaint(error);
     }
     return picture;
+}
+
+std::vector<ProgramError> misfits_of(const Picture& picture) {
+    std::vector<ProgramError> all;
+    for (const PaneReport& pane : picture.panes) {
+        for (const ProgramError& misfit : pane.misfits)
+            if (std::find(all.begin(), all.end(), misfit) == all.end()) all.push_back(misfit);
+    }
+    return all;
+}
+
+bool are_compiled_alike(const Wish& a, const Wish& b) {
+    const auto has_material = [](const Object& x, const Object& y) {
+        return x.material == y.material;
+    };
+    const auto has_machine = [](const Pane& x, const Pane& y) { return x.machine == y.machine; };
+    return std::equal(a.scene->objects.begin(), a.scene->objects.end(), b.scene->objects.begin(),
+                      b.scene->objects.end(), has_material) &&
+           std::equal(a.panes.begin(), a.panes.end(), b.panes.begin(), b.panes.end(), has_machine);
 }
 
 std::optional<Fineness> finer(const Wish& wish, const Picture& picture) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "view/fitting_programs.hpp"
 #include "view/material_program.hpp"
 #include "view/pace.hpp"
 
@@ -32,6 +33,7 @@ struct Wish {
     std::string bits;                    ///< of lab::set_stage_bits; empty: the machine's numbers
     std::optional<glm::ivec2> pixel;     ///< to be traced
     bool programs = false;               ///< those of models as text
+    std::vector<ProgramEdit> edits;      ///< the scene's edited programs
     bool moving = false;                 ///< more wishes are to be expected
     RendererOptions renderer;
 };
@@ -49,8 +51,8 @@ struct PaneReport {
     double ms = 0.0;
     double divisor = 1.0;  ///< of the sides
     int samples = 1;
-    std::string error;  ///< why there is nothing to see; empty: there is
-    std::string note;   ///< why a model's own program is seen, not the edited one; empty: it is not
+    std::string error;                  ///< why there is nothing to see; empty: there is
+    std::vector<ProgramError> misfits;  ///< edited programs that others stand for
 };
 
 struct Picture {
@@ -69,6 +71,9 @@ struct Picture {
     std::string trace_error;
     std::vector<MaterialProgram> programs;  ///< if the wish asks for them
 };
+
+/// Of all its panes, each once.
+std::vector<ProgramError> misfits_of(const Picture& picture);
 
 /// Renders with `side` x `side` samples per pixel, a machine's samples averaged.
 using DrawSamples =
@@ -92,8 +97,9 @@ class PictureMaker {
     const Framebuffer& truth_of(const Wish& wish, Scene scene);
     /// What a pane shows, rgba8, at the scene's size.
     Framebuffer draw_frame(const Wish& wish, const Scene& scene, int side, Picture& picture);
-    void draw_pane(const Wish& wish, Fineness fineness, std::size_t index, Picture& picture);
-    /// With the edited programs of `scene`, or with the models' own if one of them does not run.
+    /// Returns the scene with the programs that were drawn.
+    Scene draw_pane(const Wish& wish, Fineness fineness, std::size_t index, Picture& picture);
+    /// With the edited programs of `scene` that run, and others in place of those that do not.
     Framebuffer draw_with_edits(const Wish& wish, Scene& scene, int side, PaneReport& report,
                                 Picture& picture);
     std::vector<MaterialProgram> programs_of(const Wish& wish, Fineness fineness);
@@ -106,9 +112,13 @@ class PictureMaker {
     std::map<std::string, std::unique_ptr<Renderer>> m_renderers;  ///< "": of the whole picture
     RendererOptions m_options;
     MaterialPrograms m_programs;
+    FittingPrograms m_fitting;
     std::optional<Framebuffer> m_truth;
     std::uint64_t m_truth_id = 0;  ///< of its wish
 };
+
+/// Whether the models of both are compiled from the same materials for the same machines.
+bool are_compiled_alike(const Wish& a, const Wish& b);
 
 /// What comes after `picture` while nothing moves. Pictures of several samples are for machines:
 /// they would hide errors in a heat map, and double precision takes seconds for them.

@@ -6,8 +6,10 @@
 
 namespace burnish::view {
 
-PictureThread::PictureThread(DrawSamples draw, double budget_ms, std::function<void()> ready)
-    : m_maker(std::move(draw), budget_ms, [this] { return is_unwanted(); }),
+PictureThread::PictureThread(DrawSamples draw, double budget_ms, std::function<void()> ready,
+                             std::chrono::milliseconds patience)
+    : m_patience(patience),
+      m_maker(std::move(draw), budget_ms, [this] { return is_unwanted(); }),
       m_ready(std::move(ready)),
       m_thread([this] { run(); }) {}
 
@@ -16,14 +18,27 @@ PictureThread::~PictureThread() {
     m_thread.join();
 }
 
-bool PictureThread::is_unwanted() const {
-    return m_wishes.is_closed() || (m_wishes.is_full() && !m_is_first);
+void PictureThread::wish(Wish wish) {
+    if (m_newest && !are_compiled_alike(*m_newest, wish)) ++m_newest_compiled;
+    m_newest = wish;
+    m_wishes.put({m_newest_compiled, std::move(wish)});
 }
 
-void PictureThread::refine(const Wish& wish) {
+bool PictureThread::is_unwanted() const {
+    if (m_wishes.is_closed()) return true;
+    if (!m_wishes.is_full()) return false;
+    if (!m_is_first) return true;
+    return m_newest_compiled != m_drawn_compiled &&
+           std::chrono::steady_clock::now() - m_begun.load() > m_patience;
+}
+
+void PictureThread::refine(const Numbered& numbered) {
+    const Wish& wish = numbered.wish;
     std::optional<Fineness> fineness = Fineness::within_budget;
     std::shared_ptr<const PixelTrace> trace;
     std::string trace_error;
+    m_drawn_compiled = numbered.compiled;
+    m_begun = std::chrono::steady_clock::now();
     m_is_first = true;
     while (fineness) {
         Picture picture = m_maker.make(wish, *fineness);
@@ -56,13 +71,13 @@ void PictureThread::fail(const Wish& wish, const std::exception& error) {
 }
 
 void PictureThread::run() {
-    while (const std::optional<Wish> wish = m_wishes.wait()) {
+    while (const std::optional<Numbered> numbered = m_wishes.wait()) {
         try {
-            refine(*wish);
+            refine(*numbered);
         } catch (const Error& error) {
-            if (error.code() != ErrorCode::stopped) fail(*wish, error);
+            if (error.code() != ErrorCode::stopped) fail(numbered->wish, error);
         } catch (const std::exception& error) {
-            fail(*wish, error);
+            fail(numbered->wish, error);
         }
     }
 }

@@ -15,8 +15,7 @@ namespace {
 const ImVec4 kErrorColor(1.0F, 0.45F, 0.4F, 1.0F);
 
 /// Numbers of the lines beside a text, red where something is wrong.
-void line_numbers(const std::string& text, const std::vector<ProgramError>& errors,
-                  const std::string& material) {
+void line_numbers(const std::string& text, const std::vector<ProgramError>& errors) {
     std::size_t lines = 1;
     for (const char c : text) lines += c == '\n' ? 1 : 0;
     ImGui::BeginGroup();
@@ -24,8 +23,7 @@ void line_numbers(const std::string& text, const std::vector<ProgramError>& erro
     ImGui::Dummy(ImVec2(1.0F, ImGui::GetStyle().FramePadding.y));
     for (std::size_t line = 1; line <= lines; ++line) {
         bool wrong = false;
-        for (const ProgramError& error : errors)
-            wrong = wrong || (error.material == material && error.line == line);
+        for (const ProgramError& error : errors) wrong = wrong || error.line == line;
         const std::string number = fmt::format("{}{:>3} ", wrong ? '>' : ' ', line);
         if (wrong)
             ImGui::TextColored(kErrorColor, "%s", number.c_str());
@@ -42,12 +40,20 @@ void wrapped_error(const std::string& text) {
     ImGui::PopStyleColor();
 }
 
-void show_errors(const Session& session, const std::string& material) {
-    for (const ProgramError& error : session.program_errors) {
-        if (error.material != material) continue;
-        wrapped_error(
-            fmt::format("line {}, column {}: {}", error.line, error.column, error.message));
+void show_errors(const std::vector<ProgramError>& errors) {
+    for (const ProgramError& error : errors) wrapped_error(located(error));
+}
+
+/// What is wrong with the material's text, in itself or for a machine of the picture.
+std::vector<ProgramError> errors_of(const Session& session, const Picture* picture,
+                                    const std::string& material) {
+    std::vector<ProgramError> errors = session.program_errors();
+    if (picture != nullptr) {
+        const std::vector<ProgramError> misfits = misfits_of(*picture);
+        errors.insert(errors.end(), misfits.begin(), misfits.end());
     }
+    std::erase_if(errors, [&](const ProgramError& each) { return each.material != material; });
+    return errors;
 }
 
 /// Scrolls the child that is open to the cursor, where it moved. `top`: where the text begins.
@@ -68,7 +74,7 @@ struct TextField {
 };
 
 /// A text with the numbers of its lines, as high as the panel has room.
-TextField edit_text(const Session& session, const std::string& material, std::string& text) {
+TextField edit_text(const std::vector<ProgramError>& errors, std::string& text) {
     constexpr float kFewestLines = 8.0F;
     constexpr float kLinesBelow = 6.0F;  // the button, errors, what is folded
     const float line = ImGui::GetTextLineHeight();
@@ -78,7 +84,7 @@ TextField edit_text(const Session& session, const std::string& material, std::st
         std::max(ImGui::GetContentRegionAvail().y - kLinesBelow * line, kFewestLines * line);
     TextField field;
     if (ImGui::BeginChild("text", ImVec2(0.0F, std::min(whole, room)))) {
-        line_numbers(text, session.program_errors, material);
+        line_numbers(text, errors);
         ImGui::SameLine();
         int cursor = -1;
         const auto tell = [](ImGuiInputTextCallbackData* data) {
@@ -96,7 +102,8 @@ TextField edit_text(const Session& session, const std::string& material, std::st
     return field;
 }
 
-void edit_pipeline(Session& session, const Material& material) {
+void edit_pipeline(Session& session, const Material& material,
+                   const std::vector<ProgramError>& errors) {
     std::string text;
     const MaterialEdit* edit = session.find_edit(material.name);
     const bool is_edited = edit != nullptr && edit->combiners;
@@ -106,10 +113,9 @@ void edit_pipeline(Session& session, const Material& material) {
         ImGui::TextWrapped("%s", error.what());
         return;
     }
-    if (edit_text(session, material.name, text).changed)
-        session.edit_of(material.name).combiners = text;
+    if (edit_text(errors, text).changed) session.edit_of(material.name).combiners = text;
     if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
-    show_errors(session, material.name);
+    show_errors(errors);
 }
 
 /// What the model is compiled to for the last picture; null until it is known.
@@ -128,7 +134,8 @@ void folded_text(const char* title, const std::string& text) {
     ImGui::TreePop();
 }
 
-void edit_model(Session& session, const Material& material, const Picture* picture) {
+void edit_model(Session& session, const Material& material, const Picture* picture,
+                const std::vector<ProgramError>& errors) {
     const MaterialProgram* own = own_program(picture, material.name);
     const MaterialEdit* edit = session.find_edit(material.name);
     const bool is_edited = edit != nullptr && edit->combiners;
@@ -140,7 +147,7 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
     const bool was_in_hand = in_hand && in_hand->material == material.name;
     std::string begun = was_in_hand ? in_hand->own : own != nullptr ? own->text : "";
     std::string text = is_edited ? *edit->combiners : begun;
-    const TextField field = edit_text(session, material.name, text);
+    const TextField field = edit_text(errors, text);
     if (field.changed) {
         MaterialEdit& changed = session.edit_of(material.name);
         if (!changed.combiners) changed.compiled = begun;
@@ -151,7 +158,7 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
     else if (was_in_hand)
         in_hand.reset();
     if (is_edited && ImGui::Button("revert")) session.revert_program(material.name);
-    show_errors(session, material.name);
+    show_errors(errors);
     if (own == nullptr) return;
     folded_text("what registers begin with", own->inputs);
     if (is_edited) folded_text("the model's own", own->error.empty() ? own->text : own->error);
@@ -159,25 +166,30 @@ void edit_model(Session& session, const Material& material, const Picture* pictu
 
 }  // namespace
 
+float program_panel_width() {
+    return std::min(620.0F, 0.6F * ImGui::GetIO().DisplaySize.x);
+}
+
 void program_panel(Session& session, const Picture* picture) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(display.x, 0.0F), ImGuiCond_FirstUseEver, ImVec2(1.0F, 0.0F));
-    ImGui::SetNextWindowSize(ImVec2(std::min(620.0F, 0.6F * display.x), 0.55F * display.y),
+    ImGui::SetNextWindowSize(ImVec2(program_panel_width(), 0.55F * display.y),
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("program")) {
         if (picture != nullptr) {
             for (const PaneReport& pane : picture->panes)
-                for (const std::string& text : {pane.error, pane.note})
-                    if (!text.empty()) wrapped_error(text);
+                if (!pane.error.empty()) wrapped_error(pane.error);
         }
         int number = 0;
         for (const std::shared_ptr<const Material>& material : session.materials()) {
             ImGui::PushID(number++);
             if (material_header(*material, number == 1, picture)) {
+                const std::vector<ProgramError> errors =
+                    errors_of(session, picture, material->name);
                 if (material->program)
-                    edit_pipeline(session, *material);
+                    edit_pipeline(session, *material, errors);
                 else
-                    edit_model(session, *material, picture);
+                    edit_model(session, *material, picture, errors);
             }
             ImGui::PopID();
         }

@@ -18,11 +18,12 @@ constexpr float kOrbitDegrees = 180.0F;
 }  // namespace
 
 void Session::show(Scene scene, const std::filesystem::path& input) {
-    m_materials.forget();
+    m_materials = {};
     m_loaded = std::move(scene);
     m_ball = ball_around(m_loaded);
     state.input = input;
     message.clear();
+    shot_message.clear();
 }
 
 void Session::show_as_it_is(Scene scene, const std::filesystem::path& input) {
@@ -97,10 +98,8 @@ void Session::turn_light(float right, float down) {
 
 std::optional<Wish> Session::wish(bool moving) {
     Wish wish;
-    program_errors.clear();
     try {
-        wish.scene = std::make_shared<const Scene>(
-            edited_scene(m_loaded, state, m_materials, program_errors));
+        wish.scene = std::make_shared<const Scene>(edited_scene(m_loaded, state, m_materials));
     } catch (const Error& error) {
         wish_message = error.what();
         return std::nullopt;
@@ -123,6 +122,7 @@ std::optional<Wish> Session::wish(bool moving) {
     if (wish.pixel && (wish.pixel->x >= state.width || wish.pixel->y >= state.height))
         wish.pixel.reset();
     wish.programs = shows_programs;
+    wish.edits = m_materials.programs();
     wish.moving = moving;
     wish.renderer = renderer;
     return wish;
@@ -132,10 +132,8 @@ std::vector<std::string> Session::edit_messages() const {
     std::vector<std::string> lines = idle_edits(state, m_loaded);
     if (shows_programs) return lines;
     const std::string* last = nullptr;
-    for (const ProgramError& error : program_errors) {
-        if (last == nullptr || *last != error.material)
-            lines.push_back(fmt::format("material '{}', its text, line {}, column {}: {}",
-                                        error.material, error.line, error.column, error.message));
+    for (const ProgramError& error : program_errors()) {
+        if (last == nullptr || *last != error.material) lines.push_back(of_material(error));
         last = &error.material;
     }
     return lines;

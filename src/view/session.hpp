@@ -75,9 +75,9 @@ class Session {
     ViewState state;
     RendererOptions renderer;
     std::string message;          ///< what went wrong with the last file; empty: nothing
+    std::string shot_message;     ///< and with the last screenshot of what is shown
     std::string wish_message;     ///< what went wrong with the last wish, likewise
     bool shows_programs = false;  ///< wishes ask for the programs of models
-    std::vector<ProgramError> program_errors;  ///< of the last wish
     /// A model's program that a hand is about to edit: its field keeps the text that it began with,
     /// whatever the model is compiled to since.
     struct ProgramInHand {
@@ -87,6 +87,10 @@ class Session {
     /// What is wrong with what was changed of materials, as of the last wish, a line for each of
     /// them; of programs only while no panel shows it.
     [[nodiscard]] std::vector<std::string> edit_messages() const;
+    /// Texts of the last wish that are no programs.
+    [[nodiscard]] const std::vector<ProgramError>& program_errors() const {
+        return m_materials.errors();
+    }
     [[nodiscard]] const Scene& loaded() const { return m_loaded; }
     [[nodiscard]] const Ball& ball() const { return m_ball; }
     /// Materials of the scene, each name once, in the order of the objects. Meshes without one

@@ -129,12 +129,13 @@ void trace_panel(Session& session, const Picture* picture) {
     // Beside the controls and below the program, where the window has room.
     ImGui::SetNextWindowPos(display, ImGuiCond_FirstUseEver, ImVec2(1.0F, 1.0F));
     ImGui::SetNextWindowSize(
-        ImVec2(std::min(1010.0F, display.x), std::max(300.0F, 0.45F * display.y)),
+        ImVec2(std::min(1010.0F, display.x),
+               std::max(0.45F * display.y, std::min(300.0F, 0.6F * display.y))),
         ImGuiCond_FirstUseEver);
     bool open = true;
     const std::string title =
         fmt::format("pixel {}, {}###trace", session.state.pixel->x, session.state.pixel->y);
-    if (ImGui::Begin(title.c_str(), &open)) {
+    if (ImGui::Begin(title.c_str(), &open, ImGuiWindowFlags_HorizontalScrollbar)) {
         const glm::ivec2 pixel = *session.state.pixel;
         if (pixel.x >= session.state.width || pixel.y >= session.state.height)
             ImGui::TextUnformatted("outside of the picture");

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace burnish::view {
 namespace {
 
@@ -17,11 +19,17 @@ void cell(const std::string& text, bool stands_out = false) {
         ImGui::TextUnformatted(text.c_str());
 }
 
-/// With the titles of its columns; false if it is not to be seen.
-bool begin_table(const std::string& id, std::initializer_list<const char*> titles) {
+/// With the titles of its columns, at least so many characters wide: where the panel is narrower,
+/// it scrolls. False if it is not to be seen.
+bool begin_table(const std::string& id, float characters,
+                 std::initializer_list<const char*> titles) {
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV;
-    if (!ImGui::BeginTable(id.c_str(), static_cast<int>(titles.size()), kFlags)) return false;
+    const float width =
+        std::max(characters * ImGui::CalcTextSize("0").x, ImGui::GetContentRegionAvail().x);
+    if (!ImGui::BeginTable(id.c_str(), static_cast<int>(titles.size()), kFlags,
+                           ImVec2(width, 0.0F)))
+        return false;
     for (const char* title : titles) ImGui::TableSetupColumn(title);
     ImGui::TableHeadersRow();
     return true;
@@ -52,7 +60,7 @@ std::string taps_text(const TracedTaps& taps, bool has_layers) {
 }  // namespace
 
 void color_table(const std::string& id, const std::vector<ColorRow>& rows, int one) {
-    if (!begin_table(id, {"", "code r g b a", "value", "exact", "error, in codes"})) return;
+    if (!begin_table(id, 138.0F, {"", "code r g b a", "value", "exact", "error, in codes"})) return;
     for (const ColorRow& row : rows) {
         ImGui::TableNextRow();
         const auto numbers = [&](int width, const auto& number) {
@@ -69,7 +77,7 @@ void color_table(const std::string& id, const std::vector<ColorRow>& rows, int o
 }
 
 void number_table(const std::string& id, const std::vector<TracedInterpolant>& rows) {
-    if (rows.empty() || !begin_table(id, {"", "value", "exact", "error"})) return;
+    if (rows.empty() || !begin_table(id, 64.0F, {"", "value", "exact", "error"})) return;
     for (const TracedInterpolant& group : rows) {
         for (std::size_t k = 0; k < group.numbers.size(); ++k) {
             const TracedNumber& number = group.numbers[k];
@@ -100,7 +108,7 @@ void fetch_table(const std::string& id, const TracedFetch& fetch, int one) {
 }
 
 void blend_table(const std::string& id, const TracedBlend& blend) {
-    if (!begin_table(id, {"blend", "r", "g", "b", "a"})) return;
+    if (!begin_table(id, 64.0F, {"blend", "r", "g", "b", "a"})) return;
     const auto row = [](const char* name, const std::array<double, 4>& numbers) {
         ImGui::TableNextRow();
         cell(name);

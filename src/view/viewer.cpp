@@ -358,9 +358,11 @@ void Viewer::save_screenshot() {
             save_image(m_picture->frame, name, text);
         if (!m_request.quiet) fmt::print("{}\n", name.string());
         std::fflush(stdout);
+        m_session.shot_message.clear();
     } catch (const Error& error) {
-        m_session.message = error.what();
+        m_session.shot_message = error.what();
     }
+    m_draws = kDrawsAfterEvent;  // the message, or that there is none
     m_wants_shot = false;
     m_wants_window_shot = false;
 }

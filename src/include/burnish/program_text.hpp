@@ -1,6 +1,7 @@
 #pragma once
 
 #include <burnish/combiner.hpp>
+#include <burnish/program_place.hpp>
 #include <burnish/texture_shader.hpp>
 #include <cstddef>
 #include <optional>
@@ -30,6 +31,7 @@ template <class Program>
 struct Parsed {
     std::optional<Program> program;  ///< present if and only if `errors` is empty
     std::vector<TextError> errors;
+    ProgramLines lines;  ///< of a combiner program
 };
 
 /// `!!RC1.0` or `!!BRN1.0`. The program runs on some machine, not on every one:

@@ -37,7 +37,8 @@ struct RendererOptions {
     /// several rounds of them, each counts as the part of the triangles that it draws. Any worker
     /// calls, several at a time.
     std::function<void(std::size_t done, std::size_t total)> progress = {};
-    /// Asked before every tile and every longer step before them: true gives the frame up, render
+    /// Asked before every tile and every longer step before them, down to each row of texels where
+    /// mip levels and the maps of a model's program are made: true gives the frame up, render
     /// throws Error{stopped} as soon as the tiles that were begun are done. Any worker asks,
     /// several at a time; it must not throw.
     std::function<bool()> stop = {};
@@ -159,6 +160,11 @@ class Renderer {
     /// Object::edited is not looked at. Throws what render throws of the material, and
     /// Error{bad_option} with Machine::double_precision, which has formulas.
     ProgramMaterial program(const Scene& scene, std::size_t object);
+
+    /// Draws nothing and throws what render throws on account of the object of that number alone: a
+    /// ProgramFault where a part of its program is to blame. What it compiled the next frame need
+    /// not. Throws Error{bad_option} as program does.
+    void check(const Scene& scene, std::size_t object);
 
   private:
     FrameStats render_shown(const Scene& scene, Framebuffer& target,

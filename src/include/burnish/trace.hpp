@@ -8,6 +8,7 @@
 #include <burnish/texture.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -157,7 +158,10 @@ struct PixelTrace {
 /// Follows pixel (x, y) of `scene`, at the scene's size and in its format, through the scalar
 /// kernels and the interpreter of programs. `stored` is what Renderer::render leaves there on any
 /// instruction set.
-/// Throws Error{bad_option} for a pixel outside the frame, and what Renderer::render throws.
-PixelTrace trace_pixel(const Scene& scene, int x, int y);
+/// @param stop  asked while models are compiled, for every row of a material's texels: true gives
+///              the trace up. By one thread at a time; it must not throw
+/// Throws Error{bad_option} for a pixel outside the frame, Error{stopped}, and what
+/// Renderer::render throws.
+PixelTrace trace_pixel(const Scene& scene, int x, int y, const std::function<bool()>& stop = {});
 
 }  // namespace burnish

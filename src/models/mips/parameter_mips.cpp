@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/covered.hpp"
+#include "core/tile_watch.hpp"
 #include "models/mips/filtered_texel.hpp"
 #include "models/mips/texel_moments.hpp"
 
@@ -27,11 +28,12 @@ struct MomentGrid {
 /// The level after one of width x height whose texels are from(x, y).
 template <class From>
 MomentGrid next_level(int width, int height, MipMethod method, const MomentStorage& storage,
-                      const From& from) {
+                      const std::function<bool()>& stop, const From& from) {
     MomentGrid next{std::max(width / 2, 1), std::max(height / 2, 1), {}};
     next.texels.reserve(static_cast<std::size_t>(next.width) *
                         static_cast<std::size_t>(next.height));
     for (int y = 0; y < next.height; ++y) {
+        require_wanted(stop);
         const Covered rows(height, next.height, y);
         for (int x = 0; x < next.width; ++x) {
             const Covered columns(width, next.width, x);
@@ -60,7 +62,8 @@ void require_room(int width, int height) {
 }
 
 std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, int height,
-                                          const LobeShape& shape, const MaterialMipmaps& mipmaps) {
+                                          const LobeShape& shape, const MaterialMipmaps& mipmaps,
+                                          const std::function<bool()>& stop) {
     std::vector<ParameterGrid> levels;
     const MipMethod method = mipmaps.method;
     if (method == MipMethod::none || (width == 1 && height == 1)) return levels;
@@ -68,9 +71,10 @@ std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, 
     MomentStorage storage(mipmaps.bits);
     const auto moments_at = [&](int x, int y) { return moments_of(level0(x, y), shape, method); };
     for (int y = 0; y < height && !storage.is_exact(); ++y) {
+        require_wanted(stop);
         for (int x = 0; x < width; ++x) storage.include(moments_at(x, y));
     }
-    MomentGrid grid = next_level(width, height, method, storage,
+    MomentGrid grid = next_level(width, height, method, storage, stop,
                                  [&](int x, int y) { return storage.stored(moments_at(x, y)); });
     for (;;) {
         ParameterGrid& level = levels.emplace_back(ParameterGrid{grid.width, grid.height, {}});
@@ -78,7 +82,7 @@ std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, 
         for (const TexelMoments& m : grid.texels)
             level.texels.push_back(filtered_texel(m, shape, method, storage.least_variance()));
         if (grid.width == 1 && grid.height == 1) return levels;
-        grid = next_level(grid.width, grid.height, method, storage,
+        grid = next_level(grid.width, grid.height, method, storage, stop,
                           [&](int x, int y) -> const TexelMoments& { return grid.at(x, y); });
     }
 }

@@ -32,8 +32,10 @@ void require_room(int width, int height);
 /// rounded down, at least 1; a texel stands for what it covers of the level before. Level k is made
 /// from what level k - 1 has stored, never from its parameters. In double, of + - * / and sqrt
 /// alone: the same bits everywhere.
-/// Throws what require_room() throws.
+/// Throws what require_room() throws, and Error{stopped} when `stop`, which is asked for every row,
+/// says so.
 std::vector<ParameterGrid> parameter_mips(const TexelReader& level0, int width, int height,
-                                          const LobeShape& shape, const MaterialMipmaps& mipmaps);
+                                          const LobeShape& shape, const MaterialMipmaps& mipmaps,
+                                          const std::function<bool()>& stop = {});
 
 }  // namespace burnish::mips
