@@ -155,8 +155,20 @@ TEST_P(ReferencePixels, MaskAcrossBlocks) {
     AlignedVector<std::uint32_t> id(kTilePixels + 1, kNoTriangle);
     depth[64 + 56] = 0.25F;
     std::uint64_t drawn = 0;
-    table().rasterize_tiny(
-        {&entry, 1, &triangle, {1, 0, 0, 1}, 0, 0, 9, depth.data(), id.data(), far.data(), &drawn});
+    std::vector<std::uint8_t> blank_depths(kTileBlocks), blank_ids(kTileBlocks);
+    table().rasterize_tiny({&entry,
+                            1,
+                            &triangle,
+                            {1, 0, 0, 1},
+                            0,
+                            0,
+                            9,
+                            depth.data(),
+                            id.data(),
+                            far.data(),
+                            &drawn,
+                            blank_depths.data(),
+                            blank_ids.data()});
     EXPECT_EQ(drawn, 0x101U);
     EXPECT_EQ(std::count(id.begin(), id.begin() + kTilePixels, 9U), 2);
     EXPECT_EQ(std::pair(id[63], depth[63]), std::pair(9U, 0.5F));
