@@ -164,6 +164,11 @@ struct Renderer::State {
         maps.drop_unused(frames);
         programs_asked = 0;
     }
+    /// Without frames between them nobody else forgets: all objects once are as a frame.
+    void note_program_asked(const Scene& scene) {
+        if (programs_asked >= scene.objects.size()) sweep_maps(2);
+        ++programs_asked;
+    }
     /// What a frame did not need is forgotten, however it ends. What follows an object that is
     /// refused was not asked for: it stays for another frame.
     class Sweep {
@@ -221,9 +226,7 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) 
 
 ProgramMaterial Renderer::program(const Scene& scene, std::size_t object) {
     require_program_of(scene, object);
-    // Without frames between them nobody else forgets: all objects once are as a frame.
-    if (m_state->programs_asked >= scene.objects.size()) m_state->sweep_maps(2);
-    ++m_state->programs_asked;
+    m_state->note_program_asked(scene);
     Object own = scene.objects[object];
     own.edited = nullptr;
     return program_of(own, scene, 0, m_state->maps);
@@ -231,6 +234,7 @@ ProgramMaterial Renderer::program(const Scene& scene, std::size_t object) {
 
 void Renderer::check(const Scene& scene, std::size_t object) {
     require_program_of(scene, object);
+    m_state->note_program_asked(scene);
     Draw draw;
     prepare_draw(draw, m_state->view_of(scene, {scene.width, scene.height}), scene.objects[object],
                  m_state->maps);

@@ -6,6 +6,8 @@
 #include <burnish/error.hpp>
 #include <cmath>
 
+#include "core/tile_watch.hpp"
+
 namespace burnish {
 
 namespace {
@@ -201,6 +203,7 @@ TexturePtr DerivedMaps::axis_map(const TexturePtr& normal_map, int axis, float f
     }
     Image8 image(normal_map ? normal_map->width() : 1, normal_map ? normal_map->height() : 1);
     for (int y = 0; y < image.height; ++y) {
+        require_wanted(models.stop);
         for (int x = 0; x < image.width; ++x) {
             const glm::vec3 n =
                 normal_map ? normal_at(*normal_map, x, y) : glm::vec3(0.0F, 0.0F, 1.0F);

@@ -171,7 +171,8 @@ std::string ModelCompiler::Parts::with_passes(Machine machine, const ModelNeeds&
     try {
         const std::size_t passes = compile(machine, light, ambient).passes.size();
         return fmt::format("in {} passes it fits (multipass)", passes);
-    } catch (const Error&) {
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::stopped) throw;
         return "";
     }
 }

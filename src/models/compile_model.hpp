@@ -56,7 +56,7 @@ enum class TexelPrecision { machine, fine };
 class ModelCompiler {
   public:
     /// Throws Error{stopped}, as compile does, when `stop` says so: it is asked for every row of
-    /// the material's texels. After that this object goes on where it was.
+    /// the material's texels.
     explicit ModelCompiler(const Material& material, std::function<bool()> stop = {});
     ~ModelCompiler();
     ModelCompiler(const ModelCompiler&) = delete;

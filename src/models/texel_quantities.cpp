@@ -84,7 +84,6 @@ void TexelQuantities::seek(int level, int y) {
 void TexelQuantities::work_out(int level, int y, Row& row) {
     m_source.require_wanted();
     const auto width = static_cast<std::size_t>(m_source.width(level));
-    row.width = width;
     row.values.resize(m_components * width);
     row.tilt = 0.0;
     std::vector<glm::dvec3> at(m_quantities.size());
@@ -98,6 +97,7 @@ void TexelQuantities::work_out(int level, int y, Row& row) {
             for (int c = 0; c < components; ++c, to += width) *to = at[i][c];
         }
     }
+    row.width = width;  // last: nothing of the row is kept before all of it
 }
 
 std::span<const double> TexelQuantities::component(const Expr& quantity, int c) const {

@@ -50,6 +50,8 @@ class TileVisibility {
     /// All depths are in place, until more is drawn.
     void finish(const KernelTable& kernels) { fill_depths(kernels); }
 
+    /// Of blocks that nothing was drawn in since begin() they may be those of an earlier tile,
+    /// until finish() or cover().
     [[nodiscard]] float* depth() { return m_depth.data(); }
     [[nodiscard]] const float* depth() const { return m_depth.data(); }
     [[nodiscard]] float* block_far() { return m_block_far.data(); }

@@ -74,6 +74,9 @@ std::vector<MaterialProgram> MaterialPrograms::of(Renderer& renderer, const Scen
             program.text = print_combiners(renderer.program(scene, i).combiners);
             if (anew) inputs = inputs_text(m_models, scene, material);
             program.inputs = inputs;
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::stopped) throw;
+            program.error = error.what();
         } catch (const std::exception& error) {
             program.error = complaint(error);
         }

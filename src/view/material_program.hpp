@@ -2,8 +2,10 @@
 
 #include <burnish/renderer.hpp>
 #include <burnish/scene.hpp>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "models/compile_model.hpp"
@@ -21,7 +23,11 @@ struct MaterialProgram {
 /// Programs of models for a panel, compiled again where something changed.
 class MaterialPrograms {
   public:
-    /// Of every material with a model in `scene`, each name once.
+    /// @param stop  asked while models are compiled, as RendererOptions::stop is
+    explicit MaterialPrograms(std::function<bool()> stop) { m_models.stop = std::move(stop); }
+
+    /// Of every material with a model in `scene`, each name once. Throws
+    /// Error{stopped}, and nothing else of a material.
     /// @param anew  what registers begin with is looked at again, which compiles models of their
     ///              own; else it is what it was the last time
     std::vector<MaterialProgram> of(Renderer& renderer, const Scene& scene, bool anew);

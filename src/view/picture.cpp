@@ -232,7 +232,7 @@ Picture PictureMaker::make(const Wish& wish, Fineness fineness) {
     if (wish.programs)
         picture.programs = programs_of(wish, fineness);
     else
-        m_programs = {};
+        m_programs = MaterialPrograms(m_stop);
     if (!traced || fineness != Fineness::full) return picture;
     try {
         picture.trace = std::make_shared<const PixelTrace>(

@@ -84,7 +84,7 @@ class PictureMaker {
   public:
     /// `stop` as RendererOptions has it.
     PictureMaker(DrawSamples draw, double budget_ms, std::function<bool()> stop = {})
-        : m_draw(std::move(draw)), m_pace(budget_ms), m_stop(std::move(stop)) {}
+        : m_draw(std::move(draw)), m_pace(budget_ms), m_stop(std::move(stop)), m_programs(m_stop) {}
 
     /// What a scene or machine cannot do is told pane by pane. Throws Error{stopped} when `stop`
     /// says so.
