@@ -296,6 +296,25 @@ TEST(MaterialMipmaps, MakingThemEndsWhenNobodyWantsThem) {
     EXPECT_EQ(asked, 100);
 }
 
+// A model that one pass has no room for is compiled again, to tell in how many it would fit.
+TEST(MaterialMipmaps, AStoppedCompilationIsNoRefusal) {
+    Scene scene = floor(weave(std::nullopt, 64));
+    auto material = std::make_shared<Material>(*scene.objects[0].material);
+    material->model = Model::abp;
+    scene.objects[0].material = material;
+    scene.machine = machine_profile("geforce256");
+    Framebuffer frame(scene.width, scene.height);
+    int asked = 0, last = std::numeric_limits<int>::max();
+    const RendererOptions options{.threads = 1, .stop = [&] { return ++asked >= last; }};
+    EXPECT_THROW(Renderer(options).render(scene, frame), Error);
+    const int all = asked;
+    EXPECT_GT(all, 2 * 64);
+    for (last = all; last > 0; last -= 16) {
+        asked = 0;
+        EXPECT_TRUE(was_stopped([&] { Renderer(options).render(scene, frame); })) << last;
+    }
+}
+
 class SceneMipmaps : public SceneFile {
   protected:
     std::optional<MaterialMipmaps> mipmaps(const std::string& material,
