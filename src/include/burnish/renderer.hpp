@@ -162,8 +162,8 @@ class Renderer {
     ProgramMaterial program(const Scene& scene, std::size_t object);
 
     /// Draws nothing and throws what render throws on account of the object of that number alone: a
-    /// ProgramFault where it is known which part of its program is to blame. What it compiled the next frame need
-    /// not. Throws Error{bad_option} as program does.
+    /// ProgramFault where it is known which part of its program is to blame. What it compiled the
+    /// next frame need not. Throws Error{bad_option} as program does.
     void check(const Scene& scene, std::size_t object);
 
   private:
