@@ -15,6 +15,7 @@
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
 #include "raster/bin.hpp"
+#include "raster/tile_chunks.hpp"
 #include "raster/tile_order.hpp"
 #include "reference/render_double.hpp"
 #include "shade/normalisation_cube.hpp"
@@ -122,6 +123,7 @@ struct Renderer::State {
     std::size_t first_list(std::span<const TileList> lists, std::int32_t x, std::int32_t y) const;
     void shade_visible(Worker& worker);
     void draw_ordered(Worker& worker, const Chunk& chunk, std::span<const TileEntry> entries);
+    std::size_t tile_number(std::int32_t x, std::int32_t y) const;
     float* saved_depth(std::int32_t x, std::int32_t y);
     OutputTile output_of(Worker& worker) const;
 
@@ -143,10 +145,10 @@ struct Renderer::State {
     std::vector<ChunkRange> ranges;
     std::size_t next_range = 0;  ///< first one not binned yet
     std::vector<std::unique_ptr<Chunk>> chunks;
-    std::size_t chunk_count = 0;        ///< of this round
-    std::vector<TileRect> chunk_tiles;  ///< of each, close together: every tile asks all of them
-    bool did_not_fit = false;           ///< the chunks of the last frame
+    std::size_t chunk_count = 0;  ///< of this round
+    bool did_not_fit = false;     ///< the chunks of the last frame
     std::vector<std::unique_ptr<Worker>> workers;
+    TileChunks tile_chunks;
     TileOrder tile_order;
     AlignedVector<float> depth;  ///< tile by tile; only when the bins were flushed
     DerivedMaps maps;
@@ -380,10 +382,8 @@ void Renderer::State::bin(FrameStats& stats, TileWatch& watch) {
     watch.require_wanted();
     next_range = first + chunk_count;
     std::size_t bytes = 0;
-    chunk_tiles.clear();
     for (std::size_t i = 0; i < chunk_count; ++i) {
         const BinCounts& counts = chunks[i]->counts();
-        chunk_tiles.push_back(chunks[i]->tiles());
         bytes += chunks[i]->bytes();
         stats.triangles += counts.submitted;
         stats.nonfinite_triangles += counts.nonfinite;
@@ -430,11 +430,13 @@ std::size_t Renderer::State::fill_what_fits(std::size_t count, const Fill& fill)
     return fitting;
 }
 
+std::size_t Renderer::State::tile_number(std::int32_t x, std::int32_t y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_count(size.width)) +
+           static_cast<std::size_t>(x);
+}
+
 float* Renderer::State::saved_depth(std::int32_t x, std::int32_t y) {
-    const auto tile =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(tile_count(size.width)) +
-        static_cast<std::size_t>(x);
-    return depth.data() + tile * kTilePixels;
+    return depth.data() + tile_number(x, y) * kTilePixels;
 }
 
 void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool last_round,
@@ -443,9 +445,10 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
     const std::int32_t columns = tile_count(size.width), rows = tile_count(size.height);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     if (!last_round) depth.resize(count * kTilePixels);
-    const WorkOrder& order =
-        tile_order.plan({chunks.data(), chunk_count}, static_cast<std::size_t>(columns),
-                        static_cast<std::size_t>(rows), pool.size());
+    const std::span binned(chunks.data(), chunk_count);
+    tile_chunks.find(binned, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows));
+    const WorkOrder& order = tile_order.plan(binned, static_cast<std::size_t>(columns),
+                                             static_cast<std::size_t>(rows), pool.size());
     for_each_piece(pool, order, [&](std::size_t i, int w) {
         if (!watch.go_on()) return;
         const auto tile = static_cast<std::int32_t>(i);
@@ -470,11 +473,8 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     TileVisibility& visibility = worker.visibility;
     std::vector<TileList>& lists = worker.lists;
     lists.clear();
-    for (std::size_t i = 0; i < chunk_count; ++i) {
-        if (!chunk_tiles[i].has(x, y)) continue;
-        const std::span<const TileEntry> entries = chunks[i]->tile(x, y);
-        if (!entries.empty()) lists.push_back({chunks[i].get(), entries});
-    }
+    for (const std::uint32_t i : tile_chunks.of(tile_number(x, y)))
+        lists.push_back({chunks[i].get(), chunks[i]->tile(x, y)});
     if (lists.empty() && first_round && last_round) {
         const StageScope scope(FrameStage::resolve, pixels_of(size, x, y), worker.clock);
         return worker.image.resolve_empty(target, x * kTileSize, y * kTileSize);
@@ -512,8 +512,9 @@ void Renderer::State::draw_tile(Worker& worker, std::int32_t x, std::int32_t y, 
     if (!depth_alone) {
         worker.image.resolve(target, visibility.left(), visibility.top());
     } else if (last_round) {
-        worker.image.resolve_depths(visibility.depth(), target, visibility.left(),
-                                    visibility.top());
+        if (worker.image.resolve_depths(visibility.depth(), target, visibility.left(),
+                                        visibility.top()))
+            visibility.note_cleared();
     }
 }
 

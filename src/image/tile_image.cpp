@@ -1,6 +1,7 @@
 #include "image/tile_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
@@ -87,39 +88,52 @@ void write_greys(const float* depths, std::byte* pixels, Channel one, Code&& cod
     }
 }
 
-/// A tile that lies in the frame with all of its rows; can_stream() has been asked.
-template <std::size_t PixelSize>
-void stream_tile(const std::byte* pixels, std::byte* to, std::ptrdiff_t stride) {
+/// A tile that lies in the frame with all of its rows; can_stream() has been asked. Rows of blocks
+/// that are on their way are given to `behind`.
+template <std::size_t PixelSize, class Byte, class Behind>
+void stream_tile(Byte* pixels, std::byte* to, std::ptrdiff_t stride, Behind&& behind) {
     constexpr std::size_t kRow = kBlockSize * PixelSize, kBlock = kBlockPixels * PixelSize;
     constexpr std::size_t kBlocks = kTileSize / kBlockSize;
     for (std::size_t y = 0; y < kTileSize; ++y) {
-        const std::byte* const from =
-            pixels + y / kBlockSize * kBlocks * kBlock + y % kBlockSize * kRow;
-        for (std::size_t x = 0; x < kBlocks; ++x)
+        Byte* const from = pixels + y / kBlockSize * kBlocks * kBlock + y % kBlockSize * kRow;
+        for (std::size_t x = 0; x < kBlocks; ++x) {
             stream_aligned<kRow>(to + x * kRow, from + x * kBlock);
+            behind(from + x * kBlock);
+        }
         to += stride;
     }
 }
 void stream_tile(const std::byte* pixels, std::size_t pixel_size, std::byte* to,
                  std::ptrdiff_t stride) {
+    const auto keep = [](const std::byte*) {};
     switch (pixel_size) {
         case 4:
-            return stream_tile<4>(pixels, to, stride);
+            return stream_tile<4>(pixels, to, stride, keep);
         case 8:
-            return stream_tile<8>(pixels, to, stride);
+            return stream_tile<8>(pixels, to, stride, keep);
         default:
-            return stream_tile<16>(pixels, to, stride);
+            return stream_tile<16>(pixels, to, stride, keep);
     }
 }
 
+/// Where a tile goes that lies in the frame with all of its rows and may be streamed there.
+struct StreamTarget {
+    StreamTarget(const std::byte* pixels, Framebuffer& frame, std::int32_t left, std::int32_t top) {
+        if (left + kTileSize > frame.width() || top + kTileSize > frame.height()) return;
+        std::byte* const first =
+            frame.row(top) + static_cast<std::size_t>(left) * pixel_size(frame.format());
+        stride = frame.row(top + 1) - frame.row(top);
+        if (can_stream(first, pixels, static_cast<std::size_t>(stride))) to = first;
+    }
+    std::byte* to = nullptr;  ///< null: not there
+    std::ptrdiff_t stride = 0;
+};
+
 void resolve_pixels(const std::byte* pixels, Framebuffer& frame, std::int32_t left,
                     std::int32_t top) {
-    const bool whole = left + kTileSize <= frame.width() && top + kTileSize <= frame.height();
-    const std::size_t size = pixel_size(frame.format());
-    std::byte* const to = frame.row(top) + static_cast<std::size_t>(left) * size;
-    const std::ptrdiff_t stride = whole ? frame.row(top + 1) - frame.row(top) : 0;
-    if (whole && can_stream(to, pixels, static_cast<std::size_t>(stride))) {
-        stream_tile(pixels, size, to, stride);
+    const StreamTarget target(pixels, frame, left, top);
+    if (target.to != nullptr) {
+        stream_tile(pixels, pixel_size(frame.format()), target.to, target.stride);
     } else {
         for_each_row(frame, left, top,
                      [&](std::size_t in_tile, std::int32_t y, std::size_t in_row, auto n) {
@@ -127,6 +141,22 @@ void resolve_pixels(const std::byte* pixels, Framebuffer& frame, std::int32_t le
                      });
     }
     stream_fence();
+}
+
+/// Depths to a frame of depths. A store that clears waits for those before it, which are on their
+/// way to the frame; between them it waits the least.
+bool resolve_and_clear(float* depths, Framebuffer& frame, std::int32_t left, std::int32_t top) {
+    auto* const pixels = reinterpret_cast<std::byte*>(depths);
+    const StreamTarget target(pixels, frame, left, top);
+    if (target.to == nullptr) {
+        resolve_pixels(pixels, frame, left, top);
+        return false;
+    }
+    static constexpr std::array<float, kBlockSize> kFar{1, 1, 1, 1, 1, 1, 1, 1};
+    stream_tile<sizeof(float)>(pixels, target.to, target.stride,
+                               [](std::byte* row) { std::memcpy(row, kFar.data(), sizeof kFar); });
+    stream_fence();
+    return true;
 }
 
 }  // namespace
@@ -162,7 +192,7 @@ void TileImage::resolve(Framebuffer& frame, std::int32_t left, std::int32_t top)
     resolve_pixels(m_pixels.data(), frame, left, top);
 }
 
-void TileImage::resolve_depths(const float* depths, Framebuffer& frame, std::int32_t left,
+bool TileImage::resolve_depths(float* depths, Framebuffer& frame, std::int32_t left,
                                std::int32_t top) {
     const auto nearest = [](float one) {
         return [one](float depth) {
@@ -172,7 +202,7 @@ void TileImage::resolve_depths(const float* depths, Framebuffer& frame, std::int
     };
     switch (m_format) {
         case PixelFormat::depth32f:
-            return resolve_pixels(reinterpret_cast<const std::byte*>(depths), frame, left, top);
+            return resolve_and_clear(depths, frame, left, top);
         case PixelFormat::rgba8:
             write_greys<std::uint8_t>(depths, m_pixels.data(), 255, nearest(255.0F));
             break;
@@ -184,6 +214,7 @@ void TileImage::resolve_depths(const float* depths, Framebuffer& frame, std::int
             break;
     }
     resolve(frame, left, top);
+    return false;
 }
 
 void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const {

@@ -23,9 +23,8 @@ class TileImage {
     void resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
     void resolve(Framebuffer& frame, std::int32_t left, std::int32_t top) const;
     /// The tile's depths (kTilePixels) in place of its pixels; to a frame of colours in r, g and b
-    /// with alpha 1.
-    void resolve_depths(const float* depths, Framebuffer& frame, std::int32_t left,
-                        std::int32_t top);
+    /// with alpha 1. True: they all are 1 afterwards; otherwise they are as they were.
+    bool resolve_depths(float* depths, Framebuffer& frame, std::int32_t left, std::int32_t top);
 
     [[nodiscard]] std::byte* pixels() { return m_pixels.data(); }
     [[nodiscard]] const std::byte* pixels() const { return m_pixels.data(); }

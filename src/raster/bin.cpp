@@ -52,22 +52,6 @@ std::size_t Chunk::bytes() const {
            m_first.size() * sizeof(std::uint32_t);
 }
 
-void Chunk::add_lengths(std::uint64_t number, std::span<std::uint32_t> lengths,
-                        std::span<std::uint64_t> sums, std::size_t columns) const {
-    std::size_t entry = 0;
-    for (std::int32_t y = m_tiles.y0; y <= m_tiles.y1; ++y) {
-        const auto row =
-            static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(m_tiles.x0);
-        const auto width = static_cast<std::size_t>(this->columns());
-        for (std::size_t tile = row; tile < row + width; ++tile) {
-            const std::uint32_t length = m_first[entry + 1] - m_first[entry];
-            lengths[tile] += length;
-            sums[tile] += number * length;
-            ++entry;
-        }
-    }
-}
-
 void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
                  const KernelTable& kernels) {
     const StageScope setup(FrameStage::setup, last - first);

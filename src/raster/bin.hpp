@@ -54,18 +54,26 @@ class Chunk {
         const std::size_t at = tile_number(x, y);
         return {m_entries.data() + m_first[at], m_first[at + 1] - m_first[at]};
     }
-    /// Around the tiles that have triangles.
-    [[nodiscard]] const TileRect& tiles() const { return m_tiles; }
     [[nodiscard]] std::span<const SetupTriangle> triangles() const {
         return {m_triangles.data(), m_count};
     }
     [[nodiscard]] const BinCounts& counts() const { return m_counts; }
     /// Bytes in use.
     [[nodiscard]] std::size_t bytes() const;
-    /// Adds the length of each tile's list to `lengths`, which has `columns` tiles in a row, and
-    /// times `number`, this chunk's, to `sums`.
-    void add_lengths(std::uint64_t number, std::span<std::uint32_t> lengths,
-                     std::span<std::uint64_t> sums, std::size_t columns) const;
+    /// Calls f(number of the tile, length) for every list that is not empty, in a frame of
+    /// `columns` tiles in a row.
+    template <class F>
+    void for_each_list(std::size_t columns, F&& f) const {
+        std::size_t entry = 0;
+        for (std::int32_t y = m_tiles.y0; y <= m_tiles.y1; ++y) {
+            std::size_t tile =
+                static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(m_tiles.x0);
+            for (std::int32_t x = m_tiles.x0; x <= m_tiles.x1; ++x, ++tile, ++entry) {
+                const std::uint32_t length = m_first[entry + 1] - m_first[entry];
+                if (length > 0) f(tile, length);
+            }
+        }
+    }
 
   private:
     SetupCounts set_up(SetupCtx ctx, const KernelTable& kernels);

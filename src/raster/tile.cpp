@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace burnish {
 
@@ -37,8 +38,9 @@ void TileVisibility::begin(std::int32_t x, std::int32_t y, FrameSize frame, cons
     m_frame = frame;
     m_triangles.clear();
     m_drawn.clear();
+    const bool cleared = std::exchange(m_cleared, false);
     if (depth == nullptr) {
-        m_blank_depths.set();
+        if (!cleared) m_blank_depths.set();
         std::fill(m_block_far.begin(), m_block_far.end(), 1.0F);
         return;
     }

@@ -50,6 +50,9 @@ class TileVisibility {
     /// All depths are in place, until more is drawn.
     void finish(const KernelTable& kernels) { fill_depths(kernels); }
 
+    /// All depths are 1 already when the next tile begins.
+    void note_cleared() { m_cleared = true; }
+
     /// Of blocks that nothing was drawn in since begin() they may be those of an earlier tile,
     /// until finish() or cover().
     [[nodiscard]] float* depth() { return m_depth.data(); }
@@ -90,6 +93,7 @@ class TileVisibility {
         bool any = false;  ///< maybe
     };
     BlankBlocks m_blank_depths, m_blank_ids;
+    bool m_cleared = false;                         ///< depths, since the last tile
     std::vector<const SetupTriangle*> m_triangles;  ///< the visibility buffer holds indices
     std::vector<std::uint64_t> m_drawn;             ///< per triangle, as RasterizeCtx has it
     std::vector<std::uint32_t> m_first;             ///< of TileFragments

@@ -13,7 +13,10 @@ const WorkOrder& TileOrder::plan(std::span<const std::unique_ptr<Chunk>> chunks,
     m_chunk_sums.assign(count, 0);
     m_outlook.assign(count, {});
     for (std::size_t i = 0; i < chunks.size(); ++i)
-        chunks[i]->add_lengths(i, m_lengths, m_chunk_sums, columns);
+        chunks[i]->for_each_list(columns, [&](std::size_t tile, std::uint32_t length) {
+            m_lengths[tile] += length;
+            m_chunk_sums[tile] += i * length;
+        });
     for (std::size_t i = 0; i < count; ++i) {
         if (m_lengths[i] == 0) continue;
         const double middle = (static_cast<double>(m_chunk_sums[i]) / m_lengths[i] + 0.5) /
