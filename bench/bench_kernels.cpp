@@ -655,8 +655,8 @@ void add_levels() {
         packet.attribute(6)[i] = random.real(0.5F, 200.0F);
         packet.plane(5)[i] = static_cast<std::int16_t>(random.below(900));
         packet.texel[static_cast<std::size_t>(i)] = 8 * random.below(256);
-        packet.weight_x[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(i);
-        packet.weight_y[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(255 - i);
+        packet.weight_x[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(i % 256);
+        packet.weight_y[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(255 - i % 256);
     }
     add_packet_stage("cube_face", &KernelTable::cube_face, packet, CubeFaceCtx{0, 1, 2, 7, 8, 5},
                      {.planes = {5}, .attributes = {7, 8}});
@@ -728,8 +728,8 @@ void add_levels() {
     add_packet_stage("texel_corner", &KernelTable::texel_corner, packet, corner,
                      {.planes = {6, 7, 8}, .attributes = {2, 3}});
     for (int i = 0; i < kPacketSize; ++i) {
-        packet.plane(6)[i] = static_cast<std::int16_t>(i);
-        packet.plane(7)[i] = static_cast<std::int16_t>(255 - i);
+        packet.plane(6)[i] = static_cast<std::int16_t>(i % 256);
+        packet.plane(7)[i] = static_cast<std::int16_t>(255 - i % 256);
         for (int k = 10; k < 26; ++k)
             packet.plane(k)[i] = static_cast<std::int16_t>(random.below(256));
     }

@@ -15,9 +15,9 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
 /// tile go to has room for one more at this index, which may hold anything.
 inline constexpr std::uint16_t kNoPixel = kTilePixels;
 
-/// Fragments in a packet, at most. 256 keep the live planes of a program within 24 KB; smaller
-/// packets pay for store forwarding between stages (docs/architecture.md).
-inline constexpr int kPacketSize = 256;
+/// Fragments in a packet, at most. Smaller packets pay for the beginning and the end of every
+/// stage; larger ones gain no more (docs/performance.md).
+inline constexpr int kPacketSize = 512;
 /// Kernels compute whole groups of this many fragments; what lies beyond `Packet::count` is
 /// garbage.
 inline constexpr int kFragmentGroup = 32;

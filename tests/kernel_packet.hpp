@@ -39,6 +39,8 @@ struct Random {
 
 /// Memory of one packet, all of it filled with poison that depends on the place.
 struct PacketMemory {
+    static constexpr int kBytes = 256;  ///< a count with which i is every byte
+    static_assert(kBytes <= kPacketSize && kBytes % kFragmentGroup == 0);
     static constexpr int kPlanes = 40;
     static constexpr int kAttributes = 32;
 

@@ -103,6 +103,7 @@ TEST_P(KernelTest, AlphaBlendOfEveryByte) {
     AlignedVector<std::uint8_t> tile(4 * (kTilePixels + 1));
     ctx.tile = tile.data();
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     Packet view = packet.view();
     for (int a = 0; a < 256; ++a) {
         for (int s = 0; s < 256; s += 3) {
@@ -115,7 +116,7 @@ TEST_P(KernelTest, AlphaBlendOfEveryByte) {
                 }
             }
             table().blend_nine_bit(view, ctx);
-            for (int i = 0; i < 4 * kPacketSize; ++i) {
+            for (int i = 0; i < 4 * packet.count; ++i) {
                 const int c = i % 4, source = c == 3 ? a : std::min(s + c, 255);
                 const int sum = source * a + i / 4 * (255 - a);
                 ASSERT_EQ(tile[static_cast<std::size_t>(i)], (2 * sum + 255) / 510)
@@ -175,7 +176,7 @@ TEST_P(KernelTest, OnlyWhatIsAboveZeroIsKept) {
     PacketMemory packet;
     packet.shuffle_pixels(random);
     const std::array<float, 8> values{0.0F, -0.0F, 1e-45F, -1e-45F, 1.0F, -1.0F, kNan, 3e38F};
-    for (const int count : {256, 255, 33, 1}) {
+    for (const int count : {kPacketSize, 255, 33, 1}) {
         packet.count = count;
         for (int i = 0; i < kPacketSize; ++i) packet.attribute(3)[i] = random.pick(values);
         ASSERT_NO_FATAL_FAILURE(expect_same_pixels(table(), &KernelTable::keep, packet,

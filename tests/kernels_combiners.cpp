@@ -77,6 +77,7 @@ void fill(PacketMemory& packet, int plane, int value) {
 void check_every_nine_bit_product(const KernelTable& table, ProductKind kind,
                                   Rounding rounding = Rounding::nearest) {
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     fill(packet, kMuxPlane, 0);
     for (int pair = 0; pair < kMappings * kMappings; ++pair) {
         PortionCtx ctx = portion(kind, ThirdKind::sum, kScales[0], 3);
@@ -86,7 +87,7 @@ void check_every_nine_bit_product(const KernelTable& table, ProductKind kind,
         const Written written = outputs_of(ctx);
         for (int y = 0; y < 2; ++y) {
             for (int k : {3, 4, 5, 6, 7, 8})
-                for (int i = 0; i < kPacketSize; ++i)
+                for (int i = 0; i < packet.count; ++i)
                     packet.plane(k)[i] = static_cast<std::int16_t>(y * 256 + i - 256);
             for (int x = -256; x < 256; x += 3) {
                 for (int k = 0; k < 3; ++k) {
@@ -121,6 +122,7 @@ TEST_P(KernelTest, NineBitShiftedMultiplyOfEveryPairOfOperands) {
 // expand and half_bias with 1/2 = 127.5, of every register, whatever products do.
 TEST_P(KernelTest, NineBitIdealHalvesOfEveryRegister) {
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     fill(packet, kMuxPlane, 0);
     for (int k = 3; k < 12; ++k) fill(packet, k, 255);
     for (const Rounding rounding : {Rounding::nearest, Rounding::truncate, Rounding::shift8}) {
@@ -132,7 +134,7 @@ TEST_P(KernelTest, NineBitIdealHalvesOfEveryRegister) {
             const Written written = outputs_of(ctx);
             for (const int first : {-256, 0}) {
                 for (const int k : {0, 1, 2, 9, 10, 11})
-                    for (int i = 0; i < kPacketSize; ++i)
+                    for (int i = 0; i < packet.count; ++i)
                         packet.plane(k)[i] = static_cast<std::int16_t>(first + i);
                 ASSERT_EQ(
                     stage_difference(table(), &KernelTable::portion_nine_bit, packet, ctx, written),
@@ -146,6 +148,7 @@ TEST_P(KernelTest, NineBitIdealHalvesOfEveryRegister) {
 // Squares have a short product of their own: every register under every mapping.
 TEST_P(KernelTest, NineBitSquareOfEveryOperand) {
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     for (int mapping = 0; mapping < kMappings; ++mapping) {
         for (const ProductKind kind : {ProductKind::multiply, ProductKind::dot}) {
             PortionCtx ctx = portion(kind, ThirdKind::none, kScales[1], 1);
@@ -155,7 +158,7 @@ TEST_P(KernelTest, NineBitSquareOfEveryOperand) {
             const Written written = outputs_of(ctx);
             for (const int first : {-256, 0}) {
                 for (int k = 0; k < 3; ++k)
-                    for (int i = 0; i < kPacketSize; ++i)
+                    for (int i = 0; i < packet.count; ++i)
                         packet.plane(k)[i] = static_cast<std::int16_t>(first + i);
                 ASSERT_EQ(
                     stage_difference(table(), &KernelTable::portion_nine_bit, packet, ctx, written),
@@ -378,10 +381,11 @@ TEST_P(KernelTest, BoundedProductsOfEveryRegisterWithExtremes) {
 // The mux looks at spare0.alpha >= 1/2: 127 and 128, 8191 and 8192.
 TEST_P(KernelTest, MuxOfEveryAlpha) {
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     for (int k = 0; k < 6; ++k) fill(packet, k, 255);
     for (int k = 6; k < 12; ++k) fill(packet, k, 100);
-    for (int first = -32768; first < 32768; first += kPacketSize) {
-        for (int i = 0; i < kPacketSize; ++i)
+    for (int first = -32768; first < 32768; first += packet.count) {
+        for (int i = 0; i < packet.count; ++i)
             packet.plane(kMuxPlane)[i] = static_cast<std::int16_t>(first + i);
         PortionCtx ctx = portion(ProductKind::multiply, ThirdKind::mux, kScales[0], 3);
         const Written written = outputs_of(ctx);

@@ -67,6 +67,7 @@ PacketMemory quiet_packet() {
 // All 2^24 of A * B + (1 - A) * C; three values of B at a time, one per component.
 TEST_P(KernelTest, NineBitBlendOfAllOperands) {
     PacketMemory packet = quiet_packet();
+    packet.count = PacketMemory::kBytes;
     const FinalCtx ctx = final_combiner();
     for (int k = 6; k < 9; ++k) count_up(packet, k, 0);
     for (int a = 0; a < 256; ++a) {
@@ -84,6 +85,7 @@ TEST_P(KernelTest, NineBitBlendOfAllOperands) {
 // The colour sum is the one operand above 1: all 511 of its values as B, C or D, against each A.
 TEST_P(KernelTest, NineBitBlendWithEveryColorSum) {
     PacketMemory packet = quiet_packet();
+    packet.count = PacketMemory::kBytes;
     for (int slot = 0; slot < 3; ++slot) {
         FinalCtx ctx = final_combiner();
         Operand* const places[] = {&ctx.b, &ctx.c, &ctx.d};
@@ -112,6 +114,7 @@ TEST_P(KernelTest, NineBitBlendWithEveryColorSum) {
 
 TEST_P(KernelTest, NineBitFinalProductOfAllOperands) {
     PacketMemory packet = quiet_packet();
+    packet.count = PacketMemory::kBytes;
     for (int mapping = 0; mapping < 4; ++mapping) {
         FinalCtx ctx = final_combiner();
         read_instead(ctx, ctx.d, FinalCtx::kFinalProduct);

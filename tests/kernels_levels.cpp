@@ -441,7 +441,7 @@ TEST_P(KernelTest, BlendsWithEveryWeight) {
             }
         }
         for (int i = 0; i < kPacketSize; ++i)
-            packet.plane(5)[i] = static_cast<std::int16_t>(i + 256 * random.below(14));
+            packet.plane(5)[i] = static_cast<std::int16_t>(i % 256 + 256 * random.below(14));
         const int out = std::array{10, 14, 20}[static_cast<std::size_t>(random.below(3))];
         Written written;
         for (int c = 0; c < channels; ++c) written.planes.push_back(out + c);

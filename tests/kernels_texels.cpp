@@ -173,10 +173,11 @@ void check_weights(const KernelTable& table, FetchStage stage, std::uint8_t is_s
         }
     }
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, {is_signed}, 1, texture.pitch};
     for (int wx = 0; wx < 256; ++wx) {
         for (int x = 0; x < 4; ++x) {
-            for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, x, wx, i);
+            for (int i = 0; i < packet.count; ++i) point_at(packet, i, x, wx, i);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
                 << table.isa << " fetch, weight " << wx << ", texel " << x;
         }
@@ -196,6 +197,7 @@ TEST_P(KernelTest, WideFetchWithEveryPairOfWeights) {
 void check_every_lerp(const KernelTable& table, FetchStage stage, std::uint8_t is_signed = 0) {
     TwoRows texture(511);
     PacketMemory packet;
+    packet.count = PacketMemory::kBytes;
     const FetchCtx ctx{{texture.bytes.data()}, {kTexelPlane}, {is_signed}, 1, texture.pitch};
     for (int left = 0; left < 256; left += 4) {
         for (int c = 0; c < 4; ++c) {
@@ -205,13 +207,13 @@ void check_every_lerp(const KernelTable& table, FetchStage stage, std::uint8_t i
             }
         }
         for (int right = 0; right < 256; ++right) {
-            for (int i = 0; i < kPacketSize; ++i)
+            for (int i = 0; i < packet.count; ++i)
                 point_at(packet, i, 2 * right, i, right & 1 ? i : 0);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
                 << table.isa << " fetch, left " << left << ", right " << right;
         }
         for (int below = 0; below < 256; ++below) {
-            for (int i = 0; i < kPacketSize; ++i) point_at(packet, i, 2 * below, 0, i);
+            for (int i = 0; i < packet.count; ++i) point_at(packet, i, 2 * below, 0, i);
             ASSERT_EQ(stage_difference(table, stage, packet, ctx, kFetched), "")
                 << table.isa << " fetch, above " << left << ", below " << below;
         }

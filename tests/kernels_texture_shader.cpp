@@ -169,9 +169,10 @@ TEST_P(KernelTest, CullingByHand) {
 
 TEST_P(KernelTest, DecodesEveryRegister) {
     for (int reading = 0; reading <= static_cast<int>(Reading::nv2a_signed); ++reading) {
-        for (int base = -32768; base < 32768; base += kPacketSize) {
+        for (int base = -32768; base < 32768; base += PacketMemory::kBytes) {
             PacketMemory packet;
-            for (int i = 0; i < kPacketSize; ++i)
+            packet.count = PacketMemory::kBytes;
+            for (int i = 0; i < packet.count; ++i)
                 packet.plane(7)[i] = static_cast<std::int16_t>(base + i);
             const DecodeCtx ctx{7, 4, static_cast<Reading>(reading)};
             const Written written{.attributes = {4}};
