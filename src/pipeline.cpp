@@ -12,6 +12,7 @@
 #include "core/frame_account.hpp"
 #include "core/tile_watch.hpp"
 #include "draw.hpp"
+#include "image/stream.hpp"
 #include "image/tile_image.hpp"
 #include "machine/show_register.hpp"
 #include "raster/bin.hpp"
@@ -449,7 +450,7 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
     tile_chunks.find(binned, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows));
     const WorkOrder& order = tile_order.plan(binned, static_cast<std::size_t>(columns),
                                              static_cast<std::size_t>(rows), pool.size());
-    for_each_piece(pool, order, [&](std::size_t i, int w) {
+    const auto draw = [&](std::size_t i, int w) {
         if (!watch.go_on()) return;
         const auto tile = static_cast<std::int32_t>(i);
         Worker& worker = *workers[static_cast<std::size_t>(w)];
@@ -461,7 +462,8 @@ void Renderer::State::draw_tiles(Framebuffer& target, bool first_round, bool las
             account->add_tile(i, ticks() - start, tile_order.weight(i),
                               worker.shader.shaded_pixels() - fragments);
         watch.tile_done();
-    });
+    };
+    for_each_piece(pool, order, draw, stream_fence);
     watch.require_wanted();
 }
 

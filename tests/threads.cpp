@@ -333,6 +333,13 @@ TEST(WorkOrder, FinishingTimesOfASmallSchedule) {
     EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0, {5}}), 8.0);
     EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0, {0, 5, 5}}), 5.0);
     EXPECT_EQ(finishing_time({}, {{}, 0, {0, 0, 0}}), 0.0);
+    // 34 in one part: to one worker 1 + 30, to the other two and then 30 one by one. One by one
+    // from the beginning it would be 30 beside 1 + 32.
+    std::vector<double> many(34, 1.0);
+    many[1] = 30.0;
+    WorkOrder order{std::vector<std::uint32_t>(34), 0, {34, 34}};
+    std::iota(order.pieces.begin(), order.pieces.end(), 0U);
+    EXPECT_EQ(finishing_time(many, order), 32.0);
 }
 
 TEST(WorkOrder, EveryPieceIsHandedOutOnce) {
@@ -345,8 +352,11 @@ TEST(WorkOrder, EveryPieceIsHandedOutOnce) {
         WorkerPool pool(size);
         order_work(outlook, size, order);
         std::vector<std::atomic<int>> taken(outlook.size());
-        for_each_piece(pool, order, [&](std::size_t i, int) { ++taken[i]; });
+        std::atomic<int> ends{0};
+        for_each_piece(
+            pool, order, [&](std::size_t i, int) { ++taken[i]; }, [&] { ++ends; });
         for (const auto& n : taken) ASSERT_EQ(n, 1) << size << " workers";
+        EXPECT_EQ(ends, size);
     }
 }
 

@@ -51,20 +51,24 @@ struct alignas(64) Share {
     std::size_t end = 0;
     std::atomic<bool> begun{false};
 
-    template <class Body>
-    void work_off(std::size_t grain, const Body& body) {
+    /// `some(left)` at a time.
+    template <class Some, class Body>
+    void work_off(const Some& some, const Body& body) {
         for (;;) {
-            const std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-            if (begin >= end) return;
-            for (std::size_t i = begin; i < std::min(end, begin + grain); ++i) body(i);
+            const std::size_t seen = next.load(std::memory_order_relaxed);
+            if (seen >= end) return;
+            const std::size_t count = some(end - seen);
+            const std::size_t begin = next.fetch_add(count, std::memory_order_relaxed);
+            for (std::size_t i = begin; i < std::min(end, begin + count); ++i) body(i);
         }
     }
 };
 
-/// Numbers 0 .. shared - 1 to whoever is free, then the parts that end at `ends`, `grain` at a
-/// time.
+/// Numbers 0 .. shared - 1 to whoever is free, then the parts that end at `ends`, `some(left)` at a
+/// time; then at_end(), once on each thread.
+template <class Some, class Body, class End>
 void hand_out(WorkerPool& pool, std::size_t shared, std::span<const std::size_t> ends,
-              std::size_t grain, const std::function<void(std::size_t, int)>& body) {
+              const Some& some, const Body& body, const End& at_end) {
     const std::size_t workers = ends.size();
     Share first;
     first.end = shared;
@@ -75,15 +79,16 @@ void hand_out(WorkerPool& pool, std::size_t shared, std::span<const std::size_t>
     }
     pool.run([&](int worker) {
         const auto take = [&](std::size_t i) { body(i, worker); };
-        if (shared > 0) first.work_off(1, take);
+        if (shared > 0) first.work_off([](std::size_t) { return std::size_t{1}; }, take);
         const auto share = [&](std::size_t k) -> Share& {
             return shares[(static_cast<std::size_t>(worker) + k) % workers];
         };
         // With more workers than cores some come late, and others have their shares by then.
         for (std::size_t k = 0; k < workers; ++k)
             if (!share(k).begun.exchange(true, std::memory_order_relaxed))
-                share(k).work_off(grain, take);
-        for (std::size_t k = 0; k < workers; ++k) share(k).work_off(grain, take);
+                share(k).work_off(some, take);
+        for (std::size_t k = 0; k < workers; ++k) share(k).work_off(some, take);
+        at_end();
     });
 }
 
@@ -241,13 +246,16 @@ void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
     std::vector<std::size_t> ends;
     for (std::size_t i = 1; i <= workers; ++i)
         ends.push_back(std::min(count, (count * i / workers + grain - 1) / grain * grain));
-    hand_out(pool, 0, ends, grain, body);
+    hand_out(
+        pool, 0, ends, [grain](std::size_t) { return grain; }, body, [] {});
 }
 
 void for_each_piece(WorkerPool& pool, const WorkOrder& order,
-                    const std::function<void(std::size_t, int)>& body) {
-    hand_out(pool, order.shared, order.ends, 1,
-             [&](std::size_t i, int worker) { body(order.pieces[i], worker); });
+                    const std::function<void(std::size_t, int)>& body,
+                    const std::function<void()>& at_end) {
+    hand_out(
+        pool, order.shared, order.ends, handful,
+        [&](std::size_t i, int worker) { body(order.pieces[i], worker); }, at_end);
 }
 
 }  // namespace burnish

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -43,13 +44,16 @@ double finishing_time(std::span<const double> cost, const WorkOrder& order) {
     std::vector<std::size_t> next(workers, order.shared);
     for (std::size_t i = 1; i < workers; ++i) next[i] = order.ends[i - 1];
     std::size_t next_shared = 0;
-    const auto take = [&](std::size_t worker) -> const std::uint32_t* {
-        if (next_shared < order.shared) return &order.pieces[next_shared++];
+    const std::span<const std::uint32_t> pieces(order.pieces);
+    const auto take = [&](std::size_t worker) -> std::span<const std::uint32_t> {
+        if (next_shared < order.shared) return pieces.subspan(next_shared++, 1);
         for (std::size_t k = 0; k < workers; ++k) {
-            const std::size_t part = (worker + k) % workers;
-            if (next[part] < order.ends[part]) return &order.pieces[next[part]++];
+            const std::size_t part = (worker + k) % workers, first = next[part];
+            if (first >= order.ends[part]) continue;
+            next[part] += handful(order.ends[part] - first);
+            return pieces.subspan(first, next[part] - first);
         }
-        return nullptr;
+        return {};
     };
     using Free = std::pair<double, std::size_t>;  // when, who
     std::priority_queue<Free, std::vector<Free>, std::greater<>> free;
@@ -59,7 +63,11 @@ double finishing_time(std::span<const double> cost, const WorkOrder& order) {
         const auto [time, worker] = free.top();
         free.pop();
         last = time;
-        if (const std::uint32_t* piece = take(worker)) free.emplace(time + cost[*piece], worker);
+        const std::span<const std::uint32_t> taken = take(worker);
+        if (taken.empty()) continue;
+        free.emplace(std::accumulate(taken.begin(), taken.end(), time,
+                                     [&](double t, std::uint32_t i) { return t + cost[i]; }),
+                     worker);
     }
     return last;
 }

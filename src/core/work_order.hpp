@@ -16,6 +16,12 @@ struct WorkOrder {
     std::vector<std::size_t> ends;  ///< of the parts in `pieces`
 };
 
+/// How many pieces of a part of which `left` > 0 are left are taken at once: to take some makes a
+/// core wait until all that it wrote past its caches is in memory.
+constexpr std::size_t handful(std::size_t left) {
+    return left < 32 ? 1 : left / 16;
+}
+
 /// What is known of a piece before it is done.
 struct PieceOutlook {
     std::uint32_t weight = 0;  ///< any unit

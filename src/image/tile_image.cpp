@@ -140,7 +140,6 @@ void resolve_pixels(const std::byte* pixels, Framebuffer& frame, std::int32_t le
                          stream_copy(frame.row(y) + in_row, pixels + in_tile, n);
                      });
     }
-    stream_fence();
 }
 
 /// Depths to a frame of depths. A store that clears waits for those before it, which are on their
@@ -155,7 +154,6 @@ bool resolve_and_clear(float* depths, Framebuffer& frame, std::int32_t left, std
     static constexpr std::array<float, kBlockSize> kFar{1, 1, 1, 1, 1, 1, 1, 1};
     stream_tile<sizeof(float)>(pixels, target.to, target.stride,
                                [](std::byte* row) { std::memcpy(row, kFar.data(), sizeof kFar); });
-    stream_fence();
     return true;
 }
 
@@ -224,7 +222,6 @@ void TileImage::resolve_empty(Framebuffer& frame, std::int32_t left, std::int32_
         stream_copy(frame.row(y) + static_cast<std::size_t>(left) * m_pixel_size,
                     m_background.data(), columns * m_pixel_size);
     }
-    stream_fence();
 }
 
 }  // namespace burnish

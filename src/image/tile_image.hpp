@@ -9,7 +9,8 @@
 namespace burnish {
 
 /// Pixels of one tile, in the order of kernels/packet.hpp and in the frame's format: a worker's
-/// scratch between the store stage and the frame.
+/// scratch between the store stage and the frame. What is written to the frame is seen by other
+/// threads after `stream_fence`.
 class TileImage {
   public:
     explicit TileImage(PixelFormat format);
