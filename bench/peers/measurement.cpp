@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
+
+#include "bench/peers/cores.hpp"
 
 namespace burnish::peers {
 
@@ -21,9 +24,13 @@ std::string optional_number(const std::optional<double>& number, const char* non
     return number ? fmt::format("{:.4f}", *number) : none;
 }
 
+std::string numbers_json(const std::vector<double>& numbers) {
+    return fmt::format("[{:.4f}]", fmt::join(numbers, ", "));
+}
+
 std::string times_json(const Times& times) {
-    return fmt::format("{{\"renderer\": \"{}\", \"median_ms\": {:.4f}, \"rounds_ms\": [{:.4f}]}}",
-                       times.renderer, times.median(), fmt::join(times.rounds, ", "));
+    return fmt::format("{{\"renderer\": \"{}\", \"median_ms\": {:.4f}, \"rounds_ms\": {}}}",
+                       times.renderer, times.median(), numbers_json(times.rounds));
 }
 
 std::string json(const Measurement& m) {
@@ -37,13 +44,15 @@ std::string json(const Measurement& m) {
         "{{\"scene\": \"{}\", \"width\": {}, \"height\": {}, \"threads\": {}, \"isa\": \"{}\", "
         "\"intensity\": {},\n"
         "   \"burnish\": {},\n   \"peer\": {},\n"
-        "   \"ratio\": {}, \"covered\": {}, \"silhouette\": {}, \"edge_pixels\": {}, "
+        "   \"line_transfer_ns\": {}, \"ratio\": {}, \"covered\": {}, \"silhouette\": {}, "
+        "\"edge_pixels\": {}, "
         "\"stray_pixels\": {}, "
         "\"rmse\": {:.6f}, \"bias\": {:.6f}, \"burnish_rmse_double\": {}, "
         "\"peer_rmse_double\": {}}}",
         m.scene, m.width, m.height, m.threads, m.isa, m.intensity, times_json(m.burnish),
-        times_json(m.peer), ratio, a.covered, a.silhouette, a.edge_pixels, a.stray_pixels, a.rmse,
-        a.bias, optional_number(a.first_rmse, "null"), optional_number(a.second_rmse, "null"));
+        times_json(m.peer), numbers_json(m.transfers), ratio, a.covered, a.silhouette,
+        a.edge_pixels, a.stray_pixels, a.rmse, a.bias, optional_number(a.first_rmse, "null"),
+        optional_number(a.second_rmse, "null"));
 }
 
 std::string times_cell(const Times& times) {
@@ -77,6 +86,25 @@ double Measurement::most_ratio() const {
     return std::ranges::max(ratios(*this));
 }
 
+std::vector<Measurement> by_distance(const Measurement& measurement) {
+    if (measurement.transfers.empty()) return {measurement};
+    std::vector<Measurement> parts;
+    for (const bool far : {false, true}) {
+        Measurement part = measurement;
+        part.transfers.clear();
+        part.burnish.rounds.clear();
+        part.peer.rounds.clear();
+        for (std::size_t i = 0; i < measurement.transfers.size(); ++i) {
+            if ((measurement.transfers[i] > kFarApart) != far) continue;
+            part.transfers.push_back(measurement.transfers[i]);
+            part.burnish.rounds.push_back(measurement.burnish.rounds[i]);
+            part.peer.rounds.push_back(measurement.peer.rounds[i]);
+        }
+        if (!part.transfers.empty()) parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
 std::string json(const std::vector<Measurement>& measurements, const Surroundings& surroundings) {
     std::string list;
     for (const Measurement& m : measurements) list += (list.empty() ? "" : ",\n  ") + json(m);
@@ -94,8 +122,9 @@ std::string table_line(const Measurement& m) {
                                                 m.least_ratio(), m.most_ratio())
                                   : fmt::format("pictures differ: {} edge pixels, {} stray",
                                                 m.agreement.edge_pixels, m.agreement.stray_pixels);
-    return fmt::format("| {}{} | {} x {} | {} | {} | {} | {} | {:.5f} | {} | {} |\n", m.scene,
-                       m.isa.empty() ? "" : ", " + m.isa, m.width, m.height, m.threads,
+    const std::string cores = m.transfers.empty() ? "" : fmt::format("{:.0f}", median(m.transfers));
+    return fmt::format("| {}{} | {} x {} | {} | {} | {} | {} | {} | {:.5f} | {} | {} |\n", m.scene,
+                       m.isa.empty() ? "" : ", " + m.isa, m.width, m.height, m.threads, cores,
                        times_cell(m.burnish), times_cell(m.peer), ratio, m.agreement.rmse,
                        optional_number(m.agreement.first_rmse, ""),
                        optional_number(m.agreement.second_rmse, ""));
@@ -109,10 +138,12 @@ std::string report(const std::vector<Measurement>& measurements, const Surroundi
                                    surroundings.realtime ? "real-time" : "ordinary",
                                    surroundings.rounds, fmt::join(renderers, "; "));
     text += fmt::format(
-        "| scene | size | threads | burnish, ms | {0}, ms | ratio | RMSE between | burnish "
-        "to double | {0} to double |\n|---|---|---|---|---|---|---|---|---|\n",
+        "| scene | size | threads | core to core, ns | burnish, ms | {0}, ms | ratio | RMSE "
+        "between | burnish to double | {0} to double |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n",
         surroundings.peer);
-    for (const Measurement& m : measurements) text += table_line(m);
+    for (const Measurement& all : measurements)
+        for (const Measurement& m : by_distance(all)) text += table_line(m);
     return text;
 }
 

@@ -26,6 +26,8 @@ struct Measurement {
     std::string isa;         ///< that was asked for; empty: the best
     float intensity = 1.0F;  ///< of the light
     Times burnish{}, peer{};
+    /// By round: line_transfer(). With one thread none.
+    std::vector<double> transfers{};
     Agreement agreement{};
     bool agree = false;
 
@@ -35,6 +37,10 @@ struct Measurement {
     [[nodiscard]] double least_ratio() const;
     [[nodiscard]] double most_ratio() const;
 };
+
+/// The rounds in which the cores were near each other and those in which they were far apart, as
+/// far as there were any. A virtual machine's cores change places.
+std::vector<Measurement> by_distance(const Measurement& measurement);
 
 double median(std::vector<double> values);
 
@@ -49,7 +55,7 @@ struct Surroundings {
 /// One object with all numbers.
 std::string json(const std::vector<Measurement>& measurements, const Surroundings& surroundings);
 
-/// Markdown: surroundings, then a table with a line for each.
+/// Markdown: surroundings, then a table with a line for each and each distance of the cores.
 std::string report(const std::vector<Measurement>& measurements, const Surroundings& surroundings);
 std::string table_line(const Measurement& measurement);
 
