@@ -23,9 +23,7 @@ inline void set_span_edges(const I32 (&x)[3], const I32 (&y)[3], SpanEdges& edge
     for (int i = 0; i < 3; ++i) {
         const int next = i < 2 ? i + 1 : 0;
         const I32 a = y[i] - y[next], b = x[next] - x[i];
-        const Mask32 top_left = (a > zero) | ((a == zero) & (b > zero));
-        const I32 value = zero - (a * x[i] + b * y[i]);
-        const I32 c = ::xsimd::select(top_left, value, value - I32(1)) >> 8;
+        const I32 c = with_top_left_rule(zero - (a * x[i] + b * y[i]), a, b) >> 8;
         step[i] = to_float(b);
         origin[i] = to_float(c) + F32(0.5F);
         // A level edge is a left one that has all of a row inside, or nothing.

@@ -18,10 +18,9 @@ struct EdgeLanes {
 };
 inline EdgeLanes edge_lanes(const CornerLanes& from, const CornerLanes& to, I32 centre_x,
                             I32 centre_y) {
-    const I32 a = from.y - to.y, b = to.x - from.x, zero(0);
-    const Mask32 top_left = (a > zero) | ((a == zero) & (b > zero));
+    const I32 a = from.y - to.y, b = to.x - from.x;
     const I32 value = a * (centre_x - from.x) + b * (centre_y - from.y);
-    return {::xsimd::select(top_left, value, value - I32(1)), a << 8, b << 8};
+    return {with_top_left_rule(value, a, b), a << 8, b << 8};
 }
 
 /// A mask of coverage per lane: rows 0 .. 3 and 4 .. 7.
