@@ -127,7 +127,7 @@ void lighting(Packet& packet, const LightingCtx& ctx) {
         for_lit_vectors([&](int k) __attribute__((always_inline)) {
             const Vector3 position = positions.at(first + k * kLanes32);
             if constexpr (!IsDirection) l[k] = towards(light, light_w, position);
-            v[k] = towards(eye, eye_w, position);
+            h[k] = v[k] = towards(eye, eye_w, position);  // h of no interest as yet
         });
         if (writes_h || writes_h_dot_l) {
             for_lit_vectors([&](int k) __attribute__((always_inline)) {
