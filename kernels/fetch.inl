@@ -251,14 +251,12 @@ inline void put_codes(std::int16_t* out, const Channels& v, unsigned is_signed) 
 template <class Filter, int Textures>
 void fetch(Packet& packet, const FetchCtx& ctx) {
     const FetchPatterns patterns;
-    const auto base = reinterpret_cast<std::uintptr_t>(ctx.texels[0]);
-    std::ptrdiff_t row[2 * Textures];
+    std::uintptr_t row[2 * Textures];
     std::int16_t* planes[Textures];
     unsigned is_signed[Textures];
     for (int t = 0; t < Textures; ++t) {
-        row[2 * t] =
-            static_cast<std::ptrdiff_t>(reinterpret_cast<std::uintptr_t>(ctx.texels[t]) - base);
-        row[2 * t + 1] = row[2 * t] + ctx.pitch;
+        row[2 * t] = reinterpret_cast<std::uintptr_t>(ctx.texels[t]);
+        row[2 * t + 1] = row[2 * t] + static_cast<std::uintptr_t>(ctx.pitch);
         planes[t] = packet.planes + ctx.plane[t] * kPacketSize;
         is_signed[t] = ctx.is_signed[t];
     }
@@ -272,7 +270,7 @@ void fetch(Packet& packet, const FetchCtx& ctx) {
         for (int k = 0; k < 4; ++k) {
             const Filter filter(weights, patterns.word_pair[k]);
             I16 pairs[2 * Textures];
-            load_pairs(base, row, texel + i + 2 * k, pairs);
+            load_pairs(row, texel + i + 2 * k, pairs);
 #pragma GCC unroll 4
             for (int t = 0; t < Textures; ++t) {
                 filtered[t][k] = filter(shuffle_bytes(pairs[2 * t], patterns.interleave),

@@ -45,14 +45,11 @@ inline std::uint16_t* append_lanes(std::uint16_t* out, int first, Mask32 which) 
 }
 
 template <int Rows>
-[[gnu::always_inline]] inline void load_pairs(std::uintptr_t base,
-                                              const std::ptrdiff_t (&row)[Rows],
+[[gnu::always_inline]] inline void load_pairs(const std::uintptr_t (&row)[Rows],
                                               const std::int32_t* offset, I16 (&pairs)[Rows]) {
 #pragma GCC unroll 8
-    for (int k = 0; k < Rows; ++k) {
-        const std::uintptr_t address = base + static_cast<std::uintptr_t>(row[k]);
-        pairs[k] = load_pairs(reinterpret_cast<const std::uint8_t*>(address), offset);
-    }
+    for (int k = 0; k < Rows; ++k)
+        pairs[k] = load_pairs(reinterpret_cast<const std::uint8_t*>(row[k]), offset);
 }
 
 /// Bit k of word k.

@@ -136,26 +136,24 @@ inline I16 load_pairs(const std::uint8_t* base, const std::int32_t* offset) {
     const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(2)), pair(3), 1);
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
-/// load_pairs() from many rows at once, row k beginning row[k] bytes behind `base`: four fragments
-/// at a time, whose addresses stay in registers for all rows.
+/// load_pairs() from many rows at once, which begin at addresses row[k]: four fragments at a time,
+/// whose offsets stay in registers for all rows.
 template <int Rows>
-[[gnu::always_inline]] inline void load_pairs(std::uintptr_t base,
-                                              const std::ptrdiff_t (&row)[Rows],
+[[gnu::always_inline]] inline void load_pairs(const std::uintptr_t (&row)[Rows],
                                               const std::int32_t* offset, I16 (&pairs)[Rows]) {
     const auto half = [&](const std::int32_t* at, __m256i(&out)[Rows])
         __attribute__((always_inline)) {
-        const std::uintptr_t address[4] = {
-            base + static_cast<std::uintptr_t>(at[0]), base + static_cast<std::uintptr_t>(at[1]),
-            base + static_cast<std::uintptr_t>(at[8]), base + static_cast<std::uintptr_t>(at[9])};
+        const std::uintptr_t behind[4] = {
+            static_cast<std::uintptr_t>(at[0]), static_cast<std::uintptr_t>(at[1]),
+            static_cast<std::uintptr_t>(at[8]), static_cast<std::uintptr_t>(at[9])};
 #pragma GCC unroll 8
         for (int k = 0; k < Rows; ++k) {
-            const auto behind = static_cast<std::uintptr_t>(row[k]);
             const auto pair = [&](int f) __attribute__((always_inline)) {
                 const __m128i low =
-                    _mm_loadl_epi64(reinterpret_cast<const __m128i*>(address[f] + behind));
+                    _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row[k] + behind[f]));
                 return _mm_castpd_si128(
                     _mm_loadh_pd(_mm_castsi128_pd(low),
-                                 reinterpret_cast<const double*>(address[f + 1] + behind)));
+                                 reinterpret_cast<const double*>(row[k] + behind[f + 1])));
             };
             out[k] = _mm256_inserti128_si256(_mm256_castsi128_si256(pair(0)), pair(2), 1);
         }
