@@ -125,9 +125,10 @@ void lighting(Packet& packet, const LightingCtx& ctx) {
             return IsDirection ? direction : l[k];
         };
         for_lit_vectors([&](int k) __attribute__((always_inline)) {
+            // h may stay as it is here, which nobody reads: compilers do not see that.
             const Vector3 position = positions.at(first + k * kLanes32);
             if constexpr (!IsDirection) l[k] = towards(light, light_w, position);
-            h[k] = v[k] = towards(eye, eye_w, position);  // h of no interest as yet
+            h[k] = v[k] = towards(eye, eye_w, position);
         });
         if (writes_h || writes_h_dot_l) {
             for_lit_vectors([&](int k) __attribute__((always_inline)) {

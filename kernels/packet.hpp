@@ -15,8 +15,9 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
 /// tile go to has room for one more at this index, which may hold anything.
 inline constexpr std::uint16_t kNoPixel = kTilePixels;
 
-/// Fragments in a packet, at most. Smaller packets pay for the beginning and the end of every
-/// stage; larger ones gain no more (docs/performance.md).
+/// Fragments in a packet, at most. Smaller packets pay more often for what a stage does before its
+/// first fragment, and wait for stores of the one before; larger ones gain no more
+/// (docs/performance.md).
 inline constexpr int kPacketSize = 512;
 /// Kernels compute whole groups of this many fragments; what lies beyond `Packet::count` is
 /// garbage.

@@ -13,6 +13,7 @@
 #include <numeric>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "tests/scenes.hpp"
@@ -333,13 +334,13 @@ TEST(WorkOrder, FinishingTimesOfASmallSchedule) {
     EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0, {5}}), 8.0);
     EXPECT_EQ(finishing_time(cost, {{0, 1, 2, 3, 4}, 0, {0, 5, 5}}), 5.0);
     EXPECT_EQ(finishing_time({}, {{}, 0, {0, 0, 0}}), 0.0);
-    // 34 in one part: to one worker 1 + 30, to the other two and then 30 one by one. One by one
-    // from the beginning it would be 30 beside 1 + 32.
+    // 34 in one part: to one worker two at once, 30 + 30, to the other the rest. One by one it
+    // would be 30 and half of the rest each.
     std::vector<double> many(34, 1.0);
-    many[1] = 30.0;
+    many[0] = many[1] = 30.0;
     WorkOrder order{std::vector<std::uint32_t>(34), 0, {34, 34}};
     std::iota(order.pieces.begin(), order.pieces.end(), 0U);
-    EXPECT_EQ(finishing_time(many, order), 32.0);
+    EXPECT_EQ(finishing_time(many, order), 60.0);
 }
 
 TEST(WorkOrder, EveryPieceIsHandedOutOnce) {
@@ -352,11 +353,20 @@ TEST(WorkOrder, EveryPieceIsHandedOutOnce) {
         WorkerPool pool(size);
         order_work(outlook, size, order);
         std::vector<std::atomic<int>> taken(outlook.size());
-        std::atomic<int> ends{0};
-        for_each_piece(
-            pool, order, [&](std::size_t i, int) { ++taken[i]; }, [&] { ++ends; });
+        // An end for each worker, and one on every thread after all that it did.
+        std::atomic<int> ends{0}, without_end{0};
+        static thread_local bool has_work = false;
+        const auto body = [&](std::size_t i, int) {
+            ++taken[i];
+            if (!std::exchange(has_work, true)) ++without_end;
+        };
+        for_each_piece(pool, order, body, [&] {
+            ++ends;
+            if (std::exchange(has_work, false)) --without_end;
+        });
         for (const auto& n : taken) ASSERT_EQ(n, 1) << size << " workers";
         EXPECT_EQ(ends, size);
+        EXPECT_EQ(without_end, 0);
     }
 }
 

@@ -53,13 +53,13 @@ PacketMemory registers(int one);
 
 // One for each subject, in the order of a frame.
 void add_transform();
-void add_light_vertices();
 void add_setup();
-void add_small_triangles();
+void add_light_vertices();
 void add_rasterize();
 void add_rasterize_depths();
 void add_cover();
 void add_clear();
+void add_small_triangles();
 void add_collect();
 void add_attribute_planes();
 void add_attributes();

@@ -107,7 +107,9 @@ std::vector<Measurement> by_distance(const Measurement& measurement) {
 
 std::string json(const std::vector<Measurement>& measurements, const Surroundings& surroundings) {
     std::string list;
-    for (const Measurement& m : measurements) list += (list.empty() ? "" : ",\n  ") + json(m);
+    for (const Measurement& all : measurements)
+        for (const Measurement& m : by_distance(all))
+            list += (list.empty() ? "" : ",\n  ") + json(m);
     return fmt::format(
         "{{\"processor\": \"{}\", \"peer\": \"{}\", \"realtime\": {}, \"rounds\": {},\n "
         "\"measurements\": [\n  "

@@ -52,7 +52,7 @@ struct Surroundings {
     int rounds = 0;
 };
 
-/// One object with all numbers.
+/// One object with all numbers, measurements as in the table.
 std::string json(const std::vector<Measurement>& measurements, const Surroundings& surroundings);
 
 /// Markdown: surroundings, then a table with a line for each and each distance of the cores.

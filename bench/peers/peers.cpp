@@ -153,7 +153,7 @@ bool same_distance(double transfer, double another) {
     return (transfer > kFarApart) == (another > kFarApart);
 }
 
-/// One process of each, once more if cores changed places meanwhile.
+/// One process of each; both again, twice at most, if their cores changed places meanwhile.
 void take_turns(Measurement& m, const std::string& peer, const Runner& runner,
                 const Pictures& pictures) {
     if (m.isa.empty()) {
@@ -167,7 +167,7 @@ void take_turns(Measurement& m, const std::string& peer, const Runner& runner,
         transfer = line_transfer();
         burnish = runner.run("burnish", m, pictures.burnish, m.burnish.renderer);
         other = runner.run(peer, m, pictures.peer, m.peer.renderer);
-        if (same_distance(transfer, line_transfer())) break;
+        if (m.threads == 1 || same_distance(transfer, line_transfer())) break;
     }
     m.burnish.rounds.push_back(burnish);
     m.peer.rounds.push_back(other);

@@ -253,8 +253,10 @@ void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
 void for_each_piece(WorkerPool& pool, const WorkOrder& order,
                     const std::function<void(std::size_t, int)>& body,
                     const std::function<void()>& at_end) {
+    const std::size_t workers = order.ends.size();
     hand_out(
-        pool, order.shared, order.ends, handful,
+        pool, order.shared, order.ends,
+        [workers](std::size_t left) { return handful(left, workers); },
         [&](std::size_t i, int worker) { body(order.pieces[i], worker); }, at_end);
 }
 

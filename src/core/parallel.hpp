@@ -47,7 +47,7 @@ void for_each_index(WorkerPool& pool, std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, int)>& body);
 
 /// The same in the order given, which has a part for each worker of `pool`: body(piece, worker), of
-/// parts a handful() at a time; then at_end() on the thread of each worker.
+/// parts a handful() at a time; then at_end() on the thread of each worker, unless a body threw.
 void for_each_piece(WorkerPool& pool, const WorkOrder& order,
                     const std::function<void(std::size_t, int)>& body,
                     const std::function<void()>& at_end);

@@ -50,7 +50,7 @@ double finishing_time(std::span<const double> cost, const WorkOrder& order) {
         for (std::size_t k = 0; k < workers; ++k) {
             const std::size_t part = (worker + k) % workers, first = next[part];
             if (first >= order.ends[part]) continue;
-            next[part] += handful(order.ends[part] - first);
+            next[part] += handful(order.ends[part] - first, workers);
             return pieces.subspan(first, next[part] - first);
         }
         return {};

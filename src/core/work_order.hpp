@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,9 +18,10 @@ struct WorkOrder {
 };
 
 /// How many pieces of a part of which `left` > 0 are left are taken at once: to take some makes a
-/// core wait until all that it wrote past its caches is in memory.
-constexpr std::size_t handful(std::size_t left) {
-    return left < 32 ? 1 : left / 16;
+/// core wait until all that it wrote past its caches is in memory. Few enough that a part of which
+/// all workers take has some for each to the end.
+constexpr std::size_t handful(std::size_t left, std::size_t workers) {
+    return std::max<std::size_t>(left / (8 * workers), 1);
 }
 
 /// What is known of a piece before it is done.
@@ -35,7 +37,7 @@ struct PieceOutlook {
 void order_work(std::span<const PieceOutlook> outlook, int workers, WorkOrder& order);
 
 /// When the last worker is done, if all begin at once, every piece takes its cost and the next one
-/// is taken without delay.
+/// or the next handful is taken without delay.
 double finishing_time(std::span<const double> cost, const WorkOrder& order);
 
 }  // namespace burnish
