@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cpu_name.hpp"
 #include "bench/frame_scenes.hpp"
 #include "bench/limits.hpp"
 #include "core/aligned.hpp"
@@ -289,12 +290,10 @@ void run(const std::string& isa, double seconds) {
     if (loops == nullptr) throw std::runtime_error("no limits of the reference");
     const Limits limits = measure_limits(*loops);
     fmt::print(
-        "One core, {}: {:.0f} G 16-bit operations and {:.0f} G operations on floats a second, "
-        "{:.1f} G loads of texel pairs; "
-        "copies {:.0f} GB/s in the first-level cache, {:.0f} GB/s between buffers of 3 MB; writes "
-        "a "
-        "frame at {:.0f} GB/s.\n\n",
-        table.isa, limits.shorts, limits.floats, limits.pairs, limits.near, limits.far,
+        "One core of {}, {}: {:.0f} G 16-bit operations and {:.0f} G operations on floats a "
+        "second, {:.1f} G loads of texel pairs; copies {:.0f} GB/s in the first-level cache, "
+        "{:.0f} GB/s between buffers of 3 MB; writes a frame at {:.0f} GB/s.\n\n",
+        cpu_name(), table.isa, limits.shorts, limits.floats, limits.pairs, limits.near, limits.far,
         limits.frame);
     const FrameStats frame =
         typical_frame(ellipsoid_scene(144, 72, 1920, 1080), table.isa, seconds);

@@ -3,9 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 
+#include "bench/cpu_name.hpp"
 #include "core/cpu.hpp"
 
 #if defined(__x86_64__)
@@ -30,14 +30,6 @@ inline void count_items(benchmark::State& state, std::int64_t items, std::uint64
     state.SetItemsProcessed(done);
     if (cycles > 0)
         state.counters["cycles"] = static_cast<double>(cycles) / static_cast<double>(done);
-}
-
-/// As the system calls the processor.
-inline std::string cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-    return "unknown";
 }
 
 /// Runs what is registered and asked for, with the processor and its instruction sets in front; the

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cpu_name.hpp"
 #include "bench/peers/agreement.hpp"
 #include "bench/peers/cores.hpp"
 #include "bench/peers/measurement.hpp"
@@ -205,13 +206,6 @@ void write(const fs::path& path, const std::string& text) {
     if (!file.flush()) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-std::string processor() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-    return "unknown";
-}
-
 /// "1920x1080"
 Size size_from(const std::string& word) {
     Size size;
@@ -233,7 +227,7 @@ bool run(const Options& options, const fs::path& program) {
     std::vector<Measurement> all = first_round(options, runner, pictures);
     for (int round = 1; round < options.rounds; ++round)
         for (Measurement& m : all) take_turns(m, options.peer, runner, pictures);
-    const Surroundings surroundings{processor(), options.peer, runner.realtime(), options.rounds};
+    const Surroundings surroundings{cpu_name(), options.peer, runner.realtime(), options.rounds};
     const std::string text = report(all, surroundings);
     fmt::print("{}", text);
     write(options.output / "peers.json", json(all, surroundings));

@@ -1,5 +1,5 @@
 // One contender, one scene, one process: peer_frames CONTENDER SCENE --width W ... prints the
-// milliseconds of every frame, and what rendered them. `peers` runs it again and again.
+// milliseconds of every frame, and what rendered them where. `peers` runs it again and again.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "bench/cpu_name.hpp"
 #include "bench/peers/contender.hpp"
 #include "bench/peers/cores.hpp"
 
@@ -21,11 +22,34 @@ struct Options {
     float intensity = 1.0F;
     double seconds = 0.5;
     int frames = 7;
-    bool wait = false;
+    bool turns = false;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Draws frames for so long, and at least so many, and prints the milliseconds of each.
+void time_frames(Contender& contender, double seconds, int frames) {
+    const auto first = std::chrono::steady_clock::now();
+    for (int i = 0; i < frames || seconds_since(first) < seconds; ++i) {
+        const auto frame = std::chrono::steady_clock::now();
+        contender.draw();
+        fmt::print("ms {:.5f}\n", 1e3 * seconds_since(frame));
+    }
+}
+
+/// A turn for every line on standard input, of as many seconds as it says; others had the caches
+/// since the last one, so two frames come before. "turn" ends it.
+void take_turns(Contender& contender) {
+    double seconds = 0.0;
+    std::fflush(stdout);
+    while (std::scanf("%lf", &seconds) == 1) {
+        for (int i = 0; i < 2; ++i) contender.draw();
+        time_frames(contender, seconds, 1);
+        fmt::print("turn\n");
+        std::fflush(stdout);
+    }
 }
 
 void run(const Options& options) {
@@ -41,17 +65,11 @@ void run(const Options& options) {
     // Programs are compiled, memory is there and caches are warm after some frames.
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < 3 || seconds_since(start) < 0.2 * options.seconds; ++i) contender->draw();
-    fmt::print("renderer {}\n", contender->description());
-    if (options.wait) {
-        std::fflush(stdout);
-        std::getchar();
-    }
-    const auto first = std::chrono::steady_clock::now();
-    for (int i = 0; i < options.frames || seconds_since(first) < options.seconds; ++i) {
-        const auto frame = std::chrono::steady_clock::now();
-        contender->draw();
-        fmt::print("ms {:.5f}\n", 1e3 * seconds_since(frame));
-    }
+    fmt::print("renderer {}\ncpu {}\n", contender->description(), cpu_name());
+    if (options.turns)
+        take_turns(*contender);
+    else
+        time_frames(*contender, options.seconds, options.frames);
     if (options.picture.empty()) return;
     const FrameBytes bytes = contender->frame();
     std::ofstream file(options.picture, std::ios::binary);
@@ -75,7 +93,7 @@ int main(int argc, char** argv) {
     app.add_option("--intensity", options.intensity, "of the light");
     app.add_option("--seconds", options.seconds, "to time, at least");
     app.add_option("--frames", options.frames, "to time, at least");
-    app.add_flag("--wait", options.wait, "for a byte on standard input before frames are timed");
+    app.add_flag("--turns", options.turns, "for every line on standard input: its seconds");
     app.add_option("--picture", options.picture, "file for the last frame's bytes");
     CLI11_PARSE(app, argc, argv);
     try {
