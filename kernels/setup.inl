@@ -272,7 +272,8 @@ void setup(const SetupCtx& ctx) noexcept {
                 const I32 most_apart(256 * kSmallSize);
                 const Mask32 large = (high_x - low_x > most_apart) | (high_y - low_y > most_apart);
                 const I32 tiles =
-                    ::xsimd::select(large, I32(-1), ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize));
+                    ::xsimd::select(large, I32(static_cast<std::int32_t>(SetupPlace::kLarge)),
+                                    ((x0 ^ x1) | (y0 ^ y1)) & I32(-kTileSize));
                 const Columns place = transposed({{as_i16(covered.rows[0]), as_i16(covered.rows[1]),
                                                    as_i16(corner), as_i16(tiles)}});
                 write_places(place, lanes, reinterpret_cast<unsigned char*>(out_places));

@@ -111,7 +111,9 @@ struct SetupCounts {
 struct SetupPlace {
     std::uint64_t covered;  ///< of a tiny triangle, 0 of others
     std::uint16_t x, y;     ///< upper left pixel of the box
-    std::uint32_t tiles;    ///< 0: the triangle is small and its box lies in one tile
+    /// 0: the triangle is small and its box lies in one tile; kLarge: it is not small.
+    std::uint32_t tiles;
+    static constexpr std::uint32_t kLarge = 0xffffffff;
 };
 
 /// Corners to triangles, in order, up to the first triangle that has to be clipped. A triangle is

@@ -6,11 +6,11 @@
 #include <burnish/renderer.hpp>
 #include <chrono>
 #include <exception>
-#include <new>
 
 #include "core/cpu.hpp"
 #include "core/frame_account.hpp"
 #include "core/tile_watch.hpp"
+#include "core/within_memory.hpp"
 #include "draw.hpp"
 #include "image/stream.hpp"
 #include "image/tile_image.hpp"
@@ -84,6 +84,10 @@ void require_program_of(const Scene& scene, std::size_t object) {
                                 scene.objects.size()));
 }
 
+std::string shortage_of_program(std::size_t object) {
+    return fmt::format("out of memory for the program of object {}, counted from 0", object);
+}
+
 void require_colors(const Framebuffer& target, const char* shown) {
     if (target.format() != PixelFormat::depth32f) return;
     throw Error(ErrorCode::bad_option,
@@ -109,6 +113,8 @@ struct Renderer::State {
         surfaces.stop = options.stop;
     }
 
+    FrameStats render(const Scene& scene, Framebuffer& target,
+                      const std::optional<ShownRegister>& shown, std::optional<Aov> aov);
     void prepare(const Scene& scene, const Framebuffer& target,
                  const std::optional<ShownRegister>& shown, std::optional<Aov> aov,
                  TileWatch& watch);
@@ -229,64 +235,72 @@ FrameStats Renderer::render(const Scene& scene, Framebuffer& target, Aov shown) 
 
 ProgramMaterial Renderer::program(const Scene& scene, std::size_t object) {
     require_program_of(scene, object);
-    m_state->note_program_asked(scene);
-    Object own = scene.objects[object];
-    own.edited = nullptr;
-    return program_of(own, scene, 0, m_state->maps);
+    const auto shortage = [&] { return shortage_of_program(object); };
+    return within_memory(shortage, [&] {
+        m_state->note_program_asked(scene);
+        Object own = scene.objects[object];
+        own.edited = nullptr;
+        return program_of(own, scene, 0, m_state->maps);
+    });
 }
 
 void Renderer::check(const Scene& scene, std::size_t object) {
     require_program_of(scene, object);
-    m_state->note_program_asked(scene);
-    Draw draw;
-    prepare_draw(draw, m_state->view_of(scene, {scene.width, scene.height}), scene.objects[object],
-                 m_state->maps);
+    const auto shortage = [&] { return shortage_of_program(object); };
+    within_memory(shortage, [&] {
+        m_state->note_program_asked(scene);
+        Draw draw;
+        prepare_draw(draw, m_state->view_of(scene, {scene.width, scene.height}),
+                     scene.objects[object], m_state->maps);
+    });
+}
+
+FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
+                                  const std::optional<ShownRegister>& shown,
+                                  std::optional<Aov> aov) {
+    const auto shortage = [&] {
+        return fmt::format("out of memory for a frame of {}x{} pixels", target.width(),
+                           target.height());
+    };
+    return within_memory(shortage, [&] { return m_state->render(scene, target, shown, aov); });
 }
 
 /// The road: vertices, bins, tiles. The bins hold all triangles of a frame or, if they would exceed
 /// the memory cap, as many as fit; then the tiles are drawn and the next ones follow.
-FrameStats Renderer::render_shown(const Scene& scene, Framebuffer& target,
-                                  const std::optional<ShownRegister>& shown,
-                                  std::optional<Aov> aov) {
-    State& s = *m_state;
+FrameStats Renderer::State::render(const Scene& scene, Framebuffer& target,
+                                   const std::optional<ShownRegister>& shown,
+                                   std::optional<Aov> aov) {
     FrameStats stats;
     std::optional<ClockLoan> clock;
     const std::size_t tile_total = static_cast<std::size_t>(tile_count(target.width())) *
                                    static_cast<std::size_t>(tile_count(target.height()));
-    TileWatch watch(s.hooks, tile_total);
-    if (s.account) {
-        s.account->start(tile_total);
-        clock.emplace(s.account->clock(0), StageClock::place(FrameStage::prepare));
+    TileWatch watch(hooks, tile_total);
+    if (account) {
+        account->start(tile_total);
+        clock.emplace(account->clock(0), StageClock::place(FrameStage::prepare));
     }
-    try {
-        const auto start = Clock::now();
-        s.prepare(scene, target, shown, aov, watch);
-        s.transform(scene, watch);
-        stats.geometry_ms = milliseconds_since(start);
-        for (bool first_round = true; first_round || s.next_range < s.ranges.size();
-             first_round = false) {
-            const auto round = Clock::now();
-            const std::size_t binned = s.next_range;
-            s.bin(stats, watch);
-            stats.geometry_ms += milliseconds_since(round);
-            const bool last_round = s.next_range == s.ranges.size();
-            if (!last_round) ++stats.flushes;
-            const auto tiles = Clock::now();
-            if (!s.ranges.empty())
-                watch.begin_round(binned, s.next_range - binned, s.ranges.size());
-            s.draw_tiles(target, first_round, last_round, watch);
-            stats.tiles_ms += milliseconds_since(tiles);
-        }
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::limit, fmt::format("out of memory for a frame of {}x{} pixels",
-                                                  target.width(), target.height()));
+    const auto start = Clock::now();
+    prepare(scene, target, shown, aov, watch);
+    transform(scene, watch);
+    stats.geometry_ms = milliseconds_since(start);
+    for (bool first_round = true; first_round || next_range < ranges.size(); first_round = false) {
+        const auto round = Clock::now();
+        const std::size_t binned = next_range;
+        bin(stats, watch);
+        stats.geometry_ms += milliseconds_since(round);
+        const bool last_round = next_range == ranges.size();
+        if (!last_round) ++stats.flushes;
+        const auto tiles = Clock::now();
+        if (!ranges.empty()) watch.begin_round(binned, next_range - binned, ranges.size());
+        draw_tiles(target, first_round, last_round, watch);
+        stats.tiles_ms += milliseconds_since(tiles);
     }
-    for (const auto& worker : s.workers) {
+    for (const auto& worker : workers) {
         stats.shaded_pixels += worker->shader.shaded_pixels();
         stats.tiles_per_worker.push_back(worker->tiles);
     }
     clock.reset();
-    if (s.account) s.account->finish(stats);
+    if (account) account->finish(stats);
     return stats;
 }
 

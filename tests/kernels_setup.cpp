@@ -90,6 +90,8 @@ void expect_same(const Triangles& got, const Triangles& want, const std::string&
         ASSERT_EQ(g.covered, w.covered) << where << ", drawn " << i;
         ASSERT_EQ(std::pair(g.x, g.y), std::pair(w.x, w.y)) << where << ", drawn " << i;
         ASSERT_EQ(g.tiles == 0, w.tiles == 0) << where << ", drawn " << i;
+        ASSERT_EQ(g.tiles == SetupPlace::kLarge, w.tiles == SetupPlace::kLarge)
+            << where << ", drawn " << i;
         ASSERT_EQ(std::memcmp(&got.triangles[i], &want.triangles[i], sizeof(SetupTriangle)), 0)
             << where << ", drawn " << i << ", number " << want.triangles[i].number;
     }

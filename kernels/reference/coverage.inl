@@ -115,10 +115,12 @@ bool set_up(const SetupCtx& ctx, ScreenVertex (&v)[3], SetupCounts& counts, Setu
                static_cast<std::int16_t>(std::min(y1, Int{ctx.height} - 1))};
     if (out.box.x0 > out.box.x1 || out.box.y0 > out.box.y1) return false;
     const bool small = x_high - x_low <= 256 * kSmallSize && y_high - y_low <= 256 * kSmallSize;
-    place = {
-        0, static_cast<std::uint16_t>(out.box.x0), static_cast<std::uint16_t>(out.box.y0),
-        static_cast<std::uint32_t>(!small || out.box.x0 / kTileSize != out.box.x1 / kTileSize ||
-                                   out.box.y0 / kTileSize != out.box.y1 / kTileSize)};
+    const bool one_tile = out.box.x0 / kTileSize == out.box.x1 / kTileSize &&
+                          out.box.y0 / kTileSize == out.box.y1 / kTileSize;
+    place = {0, static_cast<std::uint16_t>(out.box.x0), static_cast<std::uint16_t>(out.box.y0),
+             !small     ? SetupPlace::kLarge
+             : one_tile ? 0U
+                        : 1U};
     const bool tiny = x1 - x0 < kTinySize && y1 - y0 < kTinySize;
     for (int y = out.box.y0; tiny && y <= out.box.y1; ++y) {
         for (int x = out.box.x0; x <= out.box.x1; ++x) {

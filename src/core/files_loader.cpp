@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/file_library.hpp"
+#include "core/within_memory.hpp"
 
 namespace burnish {
 namespace {
@@ -41,69 +42,79 @@ const FileLibrary& library() {
     return loaded;
 }
 
+/// What call(library) returns; `path` is what a shortage of memory is reported of, but for what
+/// says more itself.
+template <class Call>
+decltype(auto) of_library(const std::filesystem::path& path, const Call& call) {
+    const auto shortage = [&] { return path.string() + ": too large for the memory"; };
+    return within_memory(shortage, [&] { return call(library()); });
+}
+
 }  // namespace
 
 LoadedMesh load_mesh(const std::filesystem::path& path) {
-    return library().load_mesh(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.load_mesh(path); });
 }
 
 Image8 load_image(const std::filesystem::path& path) {
-    return library().load_image(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.load_image(path); });
 }
 
 Framebuffer load_frame(const std::filesystem::path& path) {
-    return library().load_frame(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.load_frame(path); });
 }
 
 void save_image(const Framebuffer& frame, const std::filesystem::path& path) {
-    library().save_frame(frame, path, {});
+    of_library(path, [&](const FileLibrary& files) { files.save_frame(frame, path, {}); });
 }
 
 void save_image(const Framebuffer& frame, const std::filesystem::path& path,
                 std::string_view description) {
-    library().save_frame(frame, path, description);
+    of_library(path, [&](const FileLibrary& files) { files.save_frame(frame, path, description); });
 }
 
 void save_image(const Image8& image, const std::filesystem::path& path) {
-    library().save_image(image, path);
+    of_library(path, [&](const FileLibrary& files) { files.save_image(image, path); });
 }
 
 void draw_text(Framebuffer& frame, int x, int y, std::string_view text, int size,
                const glm::vec4& color) {
-    library().draw_text(frame, x, y, text, size, color);
+    const auto shortage = [] { return "out of memory for a line of text"; };
+    within_memory(shortage, [&] { library().draw_text(frame, x, y, text, size, color); });
 }
 
 void save_text(std::string_view text, const std::filesystem::path& path) {
-    library().save_text(text, path);
+    of_library(path, [&](const FileLibrary& files) { files.save_text(text, path); });
 }
 
 void save_mesh(const MeshData& mesh, const std::filesystem::path& path) {
-    library().save_mesh(mesh, path);
+    of_library(path, [&](const FileLibrary& files) { files.save_mesh(mesh, path); });
 }
 
 LoadedScene load_scene(const std::filesystem::path& path,
                        const std::vector<std::string>& overrides) {
-    return library().load_scene(path, overrides);
+    return of_library(path,
+                      [&](const FileLibrary& files) { return files.load_scene(path, overrides); });
 }
 
 Material load_material(const std::filesystem::path& path) {
-    return library().load_material(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.load_material(path); });
 }
 
 Experiment load_experiment(const std::filesystem::path& path) {
-    return library().load_experiment(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.load_experiment(path); });
 }
 
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& path) {
-    return library().input_files(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.input_files(path); });
 }
 
 ViewState load_view_state(const std::filesystem::path& path) {
-    return library().load_view_state(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.load_view_state(path); });
 }
 
 LoadedScene scene_for_mesh(const std::filesystem::path& path) {
-    return library().scene_for_mesh(path);
+    return of_library(path, [&](const FileLibrary& files) { return files.scene_for_mesh(path); });
 }
 
 }  // namespace burnish

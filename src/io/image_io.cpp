@@ -15,7 +15,6 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +22,7 @@
 #include <vector>
 
 #include "core/near_file.hpp"
+#include "core/within_memory.hpp"
 #include "io/atomic_file.hpp"
 #include "io/png_check.hpp"
 
@@ -97,7 +97,8 @@ OIIO::TypeDesc read_pixels(const std::filesystem::path& path, Value opaque,
                     name + ": not an image that can be read: " + one_line(OIIO::geterror()));
     check_size(input->spec(), name);
     const int channels = std::min(input->spec().nchannels, 4);
-    try {
+    const auto shortage = [&] { return name + ": too large for the memory"; };
+    return within_memory(shortage, [&] {
         const std::span<Value> values = make_room(input->spec().width, input->spec().height);
         const bool ok = input->read_image(0, 0, 0, channels, OIIO::TypeDescFromC<Value>::value(),
                                           values.data());
@@ -107,9 +108,7 @@ OIIO::TypeDesc read_pixels(const std::filesystem::path& path, Value opaque,
                         name + ": damaged image: " + one_line(input->geterror()));
         spread_channels(values, channels, opaque);
         return input->spec().format;
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::limit, name + ": too large for the memory");
-    }
+    });
 }
 
 /// An Image8 or Image16.

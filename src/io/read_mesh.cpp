@@ -6,9 +6,9 @@
 #include <cctype>
 #include <cstdint>
 #include <fstream>
-#include <new>
 
 #include "core/near_file.hpp"
+#include "core/within_memory.hpp"
 #include "io/mesh_build.hpp"
 #include "io/mesh_soup.hpp"
 #include "io/mesh_text.hpp"
@@ -70,15 +70,14 @@ Parser choose_parser(const MeshText& file, const fs::path& path) {
 }  // namespace
 
 LoadedMesh read_mesh_file(const fs::path& path) {
-    try {
+    const auto shortage = [&] { return path.string() + ": too large for the memory"; };
+    return within_memory(shortage, [&] {
         const std::string bytes = read_bytes(path);
         const MeshText file{path.string(), bytes};
         MeshReport report;
         const MeshData data = build_mesh(file, choose_parser(file, path)(file), report);
-        return {Mesh(data), report};
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::limit, fmt::format("{}: not enough memory", path.string()));
-    }
+        return LoadedMesh{Mesh(data), report};
+    });
 }
 
 }  // namespace burnish

@@ -213,11 +213,7 @@ void require_schema(const Section& root) {
 LoadedScene read_scene_file(const std::filesystem::path& path,
                             const std::vector<std::string>& overrides) {
     const toml::table table = parse_scene(path, overrides);
-    try {
-        return interpret(table, path.parent_path());
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::limit, path.string() + ": too large for the memory");
-    }
+    return interpret(table, path.parent_path());
 }
 
 Material read_material_file(const std::filesystem::path& path) {

@@ -27,12 +27,6 @@ TileEntry tiny_part(const TileEntry& whole, std::int32_t x, std::int32_t y) {
             0};
 }
 
-bool is_small(const SetupTriangle& t) {
-    const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
-    const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
-    return right - left <= 256 * kSmallSize && bottom - top <= 256 * kSmallSize;
-}
-
 }  // namespace
 
 std::size_t chunk_size(FrameSize frame, std::size_t triangles) {
@@ -85,10 +79,9 @@ void Chunk::fill(const ChunkSource& source, std::size_t first, std::size_t last,
 /// Appends the triangles that are drawn.
 SetupCounts Chunk::set_up(SetupCtx ctx, const KernelTable& kernels) {
     const std::size_t room = m_count + static_cast<std::size_t>(ctx.count) + 1;
-    if (m_triangles.size() < room) {
-        m_triangles.resize(room);
-        m_places.resize(room);
-    }
+    // Each on its own: a frame that ran out of memory may have left one of them behind.
+    if (m_triangles.size() < room) m_triangles.resize(room);
+    if (m_places.size() < room) m_places.resize(room);
     SetupCounts counts{};
     ctx.triangles = m_triangles.data() + m_count;
     ctx.places = m_places.data() + m_count;
@@ -179,8 +172,9 @@ void Chunk::sort_into_tiles() {
 void Chunk::add_parts(std::uint32_t index) {
     const SetupTriangle& triangle = m_triangles[index];
     const PixelRect& box = triangle.box;
-    const auto is_large = static_cast<std::uint8_t>(is_small(triangle) ? 0 : 1);
-    const TileEntry whole{m_places[index].covered, index, 0, 0, is_large};
+    const SetupPlace& place = m_places[index];
+    const auto is_large = static_cast<std::uint8_t>(place.tiles == SetupPlace::kLarge ? 1 : 0);
+    const TileEntry whole{place.covered, index, 0, 0, is_large};
     // Two tiles of a small one are listed as they are: hardly any has none of its pixels.
     const std::int32_t rows = box.y1 / kTileSize - box.y0 / kTileSize + 1,
                        columns = box.x1 / kTileSize - box.x0 / kTileSize + 1;

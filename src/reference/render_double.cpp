@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 
+#include "core/within_memory.hpp"
 #include "reference/footprint.hpp"
 #include "reference/shade.hpp"
 #include "reference/tangent_frame.hpp"
@@ -388,7 +388,11 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
                          const DoubleOptions& options) {
     const reference::SamplePattern pattern(side_of(options.samples), options.seed);
     const reference::FrameSize size{target.width(), target.height()};
-    try {
+    const auto shortage = [&] {
+        return fmt::format("out of memory for a frame of {}x{} pixels with {} samples each",
+                           size.width, size.height, options.samples);
+    };
+    return within_memory(shortage, [&] {
         return reference::render(
             reference::double_scene(scene, size.width, size.height, options.layer_machine,
                                     options.machine_grid, options.surfaces),
@@ -398,11 +402,7 @@ FrameStats render_double(const Scene& scene, Framebuffer& target, WorkerPool& po
                       target.row(y) + static_cast<std::size_t>(x) * pixel_size(target.format()));
             },
             options.hooks);
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::limit, fmt::format("out of memory for a frame of {}x{} pixels with "
-                                                  "{} samples each",
-                                                  size.width, size.height, options.samples));
-    }
+    });
 }
 
 }  // namespace burnish

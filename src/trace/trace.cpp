@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/within_memory.hpp"
 #include "shade/normalisation_cube.hpp"
 #include "trace/filter_corners.hpp"
 #include "trace/fragment.hpp"
@@ -167,8 +168,7 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y, const std::function<boo
     trace.machine = scene.machine;
     trace.one = code_of_one(scene.machine.numbers);
     trace.format = scene.format;
-    // In the floating-point environment of the renderer's workers, whatever the caller's is.
-    WorkerPool(1).run([&](int) {
+    const auto follow = [&](int) {
         TracedFrame frame(scene, stop);
         TracedPixel pixel(scene);
         for (const VisibleTriangle& seen : frame.visible(x, y)) {
@@ -177,7 +177,9 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y, const std::function<boo
             pixel.take(*trace.fragment, scene.objects[seen.setup.draw].raster.blend);
         }
         trace.stored = pixel.channels();
-    });
+    };
+    // In the floating-point environment of the renderer's workers, whatever the caller's is.
+    within_memory([] { return "out of memory for a trace"; }, [&] { WorkerPool(1).run(follow); });
     return trace;
 }
 

@@ -15,7 +15,8 @@ enum class ErrorCode {
     stopped,      ///< the caller's own wish: RendererOptions::stop
 };
 
-/// The one exception type that leaves the library.
+/// The one exception type that leaves the library, but for std::bad_alloc out of what makes meshes,
+/// textures and frames.
 /// `what()` is one line: where (FILE:LINE where there is one), what was found, what was expected.
 class Error : public std::runtime_error {
   public:
