@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 namespace burnish {
 
 namespace {
@@ -18,6 +22,14 @@ struct BuiltTable {
     const KernelTable& (*table)() noexcept;
 };
 
+#if defined(__x86_64__)
+/// The builtin knows of it with GCC alone.
+bool has_lzcnt() {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return __get_cpuid(0x80000001, &a, &b, &c, &d) != 0 && (c & bit_LZCNT) != 0;
+}
+#endif
+
 /// Best first. The compiler's own feature test also asks the operating system about the registers.
 std::vector<BuiltTable> built_tables() {
     std::vector<BuiltTable> built;
@@ -27,7 +39,10 @@ std::vector<BuiltTable> built_tables() {
                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                         __builtin_cpu_supports("avx512vl");
     built.push_back({"avx512", avx512, table_avx512});
-    built.push_back({"avx2", __builtin_cpu_supports("avx2") != 0, table_avx2});
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
+                      __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt") &&
+                      has_lzcnt();
+    built.push_back({"avx2", avx2, table_avx2});
     built.push_back({"sse42", __builtin_cpu_supports("sse4.2") != 0, table_sse42});
 #elif defined(__aarch64__)
     built.push_back({"neon64", true, table_neon64});
