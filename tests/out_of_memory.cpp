@@ -2,7 +2,6 @@
 // what it was made on draws the next frame as if nothing had been.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <burnish/error.hpp>
 #include <burnish/files.hpp>
 #include <burnish/renderer.hpp>
@@ -10,57 +9,22 @@
 #include <burnish/trace.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/failing_new.hpp"
 #include "tests/scenes.hpp"
 #include "tests/scratch_directory.hpp"
 
-namespace {
-
-/// How many allocations are left until one fails; below 0 none does.
-std::atomic<std::int64_t> allocations_left{-1};
-
-void* allocate(std::size_t bytes, std::size_t alignment) {
-    if (allocations_left.load(std::memory_order_relaxed) >= 0 &&
-        allocations_left.fetch_sub(1, std::memory_order_relaxed) == 0)
-        throw std::bad_alloc();
-    const std::size_t whole = (bytes + alignment - 1) / alignment * alignment;
-    void* const p = std::aligned_alloc(alignment, whole > 0 ? whole : alignment);
-    if (p == nullptr) throw std::bad_alloc();
-    return p;
-}
-
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-    return allocate(bytes, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-}
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-    return allocate(bytes, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t /*bytes*/) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::align_val_t /*alignment*/) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
-    std::free(p);
-}
-
 namespace burnish {
 namespace {
+
+using failing_new::allocations_left;
 
 /// call() with the n-th of its allocations failing for n = 0, 1, .. until there is none that fails;
 /// from `in_a_row` on it leaves some out. After each, recovered().
