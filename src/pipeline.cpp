@@ -196,7 +196,9 @@ struct Renderer::State {
     };
 };
 
-Renderer::Renderer(const RendererOptions& options) : m_state(std::make_unique<State>(options)) {}
+Renderer::Renderer(const RendererOptions& options)
+    : m_state(within_memory([] { return "out of memory for a renderer"; },
+                            [&] { return std::make_unique<State>(options); })) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -94,6 +94,13 @@ class OutOfMemory : public testing::TestWithParam<Case> {
     }
 };
 
+TEST(OutOfMemoryRenderers, AreErrors) {
+    for (const bool accounting : {false, true}) {
+        const RendererOptions options{.threads = 4, .accounting = accounting};
+        fail_one_by_one([&] { const Renderer renderer(options); }, [] {});
+    }
+}
+
 /// Of a renderer's first frame, which compiles and derives everything.
 TEST_P(OutOfMemory, OfAFrameIsAnErrorAndTheNextFrameIsWhole) {
     const Scene scene = this->scene();

@@ -21,6 +21,7 @@
 #else
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #endif
 
 namespace burnish {
@@ -142,16 +143,19 @@ struct WorkerPool::Backend {
 
 struct WorkerPool::Backend {
     explicit Backend(int workers) {
-        for (int w = 1; w < workers; ++w) threads.emplace_back([this, w] { work(w); });
-    }
-    ~Backend() {
-        {
-            const std::lock_guard lock(mutex);
-            stopping = true;
+        try {
+            for (int w = 1; w < workers; ++w) threads.emplace_back([this, w] { work(w); });
+        } catch (const std::system_error&) {
+            stop();
+            throw Error(ErrorCode::limit,
+                        fmt::format("threads: the system has no more than {} of {}",
+                                    threads.size() + 1, workers));
+        } catch (...) {
+            stop();
+            throw;
         }
-        wake.notify_all();
-        for (std::thread& thread : threads) thread.join();
     }
+    ~Backend() { stop(); }
     Backend(const Backend&) = delete;
     Backend& operator=(const Backend&) = delete;
 
@@ -178,6 +182,15 @@ struct WorkerPool::Backend {
             const std::lock_guard lock(mutex);
             failure = std::current_exception();
         }
+    }
+
+    void stop() {
+        {
+            const std::lock_guard lock(mutex);
+            stopping = true;
+        }
+        wake.notify_all();
+        for (std::thread& thread : threads) thread.join();
     }
 
     void work(int worker) {

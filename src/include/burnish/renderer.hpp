@@ -124,7 +124,8 @@ struct FrameStats {
 /// instruction set, the thread count or earlier frames. One call at a time per object.
 class Renderer {
   public:
-    /// Throws Error{bad_option} for an unknown or unavailable ISA, or a thread count out of range.
+    /// Throws Error{bad_option} for an unknown or unavailable ISA, or a thread count out of range,
+    /// Error{limit} if there is no memory or no thread to be had.
     explicit Renderer(const RendererOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
